@@ -74,7 +74,7 @@ impl Engine {
     pub fn remove(&mut self, id: BodyId) -> Result<(), EngineError> {
         self.wake(id)?;
         let record = *self.bodies.get(id)?;
-        self.leave_ways(id.slot);
+        self.leave_ways(id.slot, 1.0);
         self.drop_contacts(id.slot);
         self.impacts.forget(id.slot);
         for number in record.pieces() {
@@ -90,21 +90,21 @@ impl Engine {
         Ok(())
     }
 
-    /// Says that a caller moves a body within a sub-step: its velocity gets no more what it lacks ([`State::lack`](crate::State::lack));
-    /// those that it is in contact with answer for that.
+    /// Says that a caller moves a body, or takes it out, once this part of a sub-step has passed: its velocity gets no more what it lacks
+    /// ([`State::lack`](crate::State::lack)); those that it is in contact with answer for that.
     ///
     /// # Errors
     /// [`EngineError::Stale`] if it is not in this engine.
-    pub fn leave_way(&mut self, id: BodyId) -> Result<(), EngineError> {
+    pub fn leave_way(&mut self, id: BodyId, passed: f64) -> Result<(), EngineError> {
         let record = *self.bodies.get(id)?;
         if record.line != Bodies::NONE {
-            self.leave_ways(id.slot);
+            self.leave_ways(id.slot, passed);
         }
         Ok(())
     }
 
     /// See [`Ways::leave`](crate::rows::Ways::leave).
-    fn leave_ways(&mut self, slot: u32) {
+    fn leave_ways(&mut self, slot: u32, passed: f64) {
         if self.ways.lack(slot).is_none() {
             return;
         }
@@ -112,10 +112,10 @@ impl Engine {
         let others = contacts.map(|(id, side)| self.graph.contacts[id as usize].bodies[1 - side]);
         let is_awake = |other: &u32| self.bodies.records[*other as usize].line != Bodies::NONE;
         let moves = |other: &u32| self.bodies.is_dynamic(*other) && is_awake(other);
-        let mut partners: Vec<u32> = others.filter(moves).collect();
+        let mut partners: Vec<u32> = others.chain(self.ways.met(slot)).filter(moves).collect();
         partners.sort_unstable();
         partners.dedup();
-        self.ways.leave(&mut self.bodies, slot, &partners);
+        self.ways.leave(&mut self.bodies, slot, &partners, passed);
     }
 
     pub(crate) fn drop_contacts(&mut self, slot: u32) {

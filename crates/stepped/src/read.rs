@@ -23,9 +23,9 @@ pub struct State {
     pub velocity: (Vec2, f64),
     /// The same before the last sub-step.
     pub before: (Vec2, f64),
-    /// What the velocity and spin on the way through the last sub-step lacked of these, if contacts alone act on the body, which goes
-    /// evenly then, and [`Engine::note_ways`] asked for it.
-    pub lack: Option<(Vec2, f64)>,
+    /// What the velocity and spin on the way through the last sub-step lacked of these, as it began and as it ended, if contacts alone
+    /// act on the body, which goes evenly then, and [`Engine::note_ways`] asked for it.
+    pub lack: Option<[(Vec2, f64); 2]>,
 }
 
 /// A contact of two pieces, as the last sub-step left it.

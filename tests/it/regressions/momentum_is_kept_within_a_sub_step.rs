@@ -26,7 +26,7 @@ fn step(world: &mut World, dt: f64, at: &str) {
 }
 
 /// A ring of boxes and discs that run together, each with another mass.
-fn ring(world: &mut World, count: u32) -> Vec<BodyId> {
+fn ring(world: &mut World, count: u32, speed: f64) -> Vec<BodyId> {
     let mut ids = Vec::new();
     for k in 0..count {
         let out = Rot::from_angle(f64::from(k) * 6.0 / f64::from(count)) * Vec2::X;
@@ -38,7 +38,7 @@ fn ring(world: &mut World, count: u32) -> Vec<BodyId> {
         let def = BodyDef::dynamic()
             .at(out * (1.2 + 0.1 * f64::from(k % 4)))
             .turned(f64::from(k))
-            .moving(out * -(4.0 + f64::from(k % 3)))
+            .moving(out * (-speed * (4.0 + f64::from(k % 3))))
             .spinning(f64::from(k % 7) - 3.0);
         let shape = if k % 2 == 0 {
             Circle::new(0.15).expect("a disc").into()
@@ -54,7 +54,7 @@ fn ring(world: &mut World, count: u32) -> Vec<BodyId> {
 fn a_removed_body_takes_no_momentum_of_others() {
     for count in 8..20 {
         let mut world = weightless();
-        let ids = ring(&mut world, count);
+        let ids = ring(&mut world, count, 1.0);
         let mut ids = ids.into_iter();
         for time in 0..400 {
             if time % 40 == 39
@@ -72,7 +72,7 @@ fn a_removed_body_takes_no_momentum_of_others() {
 fn a_body_that_a_caller_moves_takes_no_momentum_of_others() {
     for count in 8..20 {
         let mut world = weightless();
-        let ids = ring(&mut world, count);
+        let ids = ring(&mut world, count, 1.0);
         let mut ids = ids.into_iter().cycle();
         for time in 0..400 {
             if time % 10 == 9
@@ -91,6 +91,36 @@ fn a_body_that_a_caller_moves_takes_no_momentum_of_others() {
             );
         }
     }
+}
+
+/// Bodies that continuous collision stops go elsewhere than their velocities tell: up to a hundredth of the angular momentum was missing
+/// within the sub-step, and for ever if one of them was changed there.
+#[test]
+fn what_is_stopped_takes_no_momentum_with_it() {
+    let mut stopped = 0;
+    for count in 8..20 {
+        let mut world = weightless();
+        let mut ids = ring(&mut world, count, 40.0);
+        for time in 0..200 {
+            let at = format!("{count} {time}");
+            stopped += world
+                .bodies()
+                .filter(|body| body.velocity().length() > 40.0)
+                .count();
+            step(&mut world, 1.1e-3, &at);
+            if time % 20 == 19 && ids.len() > 2 {
+                let (first, last) = (ids[0], ids.pop().expect("more than two"));
+                let velocity = world.body(first).expect("it is there").velocity();
+                world.remove(last).expect("it is there");
+                world
+                    .set_velocity(first, velocity * -0.5, 1.0)
+                    .expect("it is there");
+                // What is left of the sub-step, and more.
+                step(&mut world, 3.3e-3, &at);
+            }
+        }
+    }
+    assert!(stopped > 100, "{stopped} fast bodies");
 }
 
 #[test]

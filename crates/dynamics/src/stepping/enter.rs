@@ -87,7 +87,7 @@ impl Stepping {
             accepted(self.engine.wake(id));
         }
         let frame = state.centre_pose(time);
-        let lack = known.lack.unwrap_or_default();
+        let [_, lack] = known.lack.unwrap_or_default();
         let motion = (
             state.velocity_at(time) + lack.0,
             state.spin_at(time) + lack.1,

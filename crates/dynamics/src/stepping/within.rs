@@ -6,14 +6,25 @@ use carom_stepped::BodyId;
 use super::write::go_evenly;
 use super::{Stepping, accepted, place};
 use crate::store::bodies::Bodies;
+use crate::store::clock::Clock;
 
 impl Stepping {
     /// Bodies that a caller changed go as they do, and what their velocities lacked stays with those they touch.
-    pub(crate) fn leave_ways(&mut self, bodies: &Bodies) {
-        for &index in &bodies.touched {
-            if let Some(id) = self.id(index).filter(|_| bodies.is_alive(index)) {
-                accepted(self.engine.leave_way(id));
-            }
+    pub(crate) fn leave_ways(&mut self, bodies: &Bodies, clock: &Clock) {
+        for &index in bodies
+            .touched
+            .iter()
+            .filter(|index| bodies.is_alive(**index))
+        {
+            self.leave_way(index, clock);
+        }
+    }
+
+    /// See [`Self::leave_ways`].
+    pub(crate) fn leave_way(&mut self, index: u32, clock: &Clock) {
+        let passed = ((clock.now - clock.last()) / clock.h).clamp(0.0, 1.0);
+        if let Some(id) = self.id(index) {
+            accepted(self.engine.leave_way(id, passed));
         }
     }
 

@@ -104,7 +104,7 @@ impl Stepping {
             let pushed = (v - u - pull * h).length() > SAME * (v.length() + u.length());
             if state.lack.is_some() || pushed || off > SAME * (reach + way.length()) {
                 let shown = match state.lack {
-                    Some(lack) => [(v - lack.0, w - lack.1); 2],
+                    Some(lack) => lack.map(|lack| (v - lack.0, w - lack.1)),
                     None => [(u, s), (v, w)],
                 };
                 go_evenly(bodies, start, (from, turned), shown, state, h);

@@ -218,7 +218,8 @@ impl Engine {
             hanging.extend(self.hangs(body, from, shift, &hung));
             stopped.push(self.bodies.id(body.slot));
         }
-        turn_shifted(&mut self.bodies, &fast.shifted);
+        let added = turn_shifted(&mut self.bodies, &fast.shifted);
+        self.ways.shift(&self.bodies, &added, &fast.shifted);
         if is_whole {
             self.hanging = hanging;
         }

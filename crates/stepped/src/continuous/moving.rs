@@ -6,6 +6,7 @@ use carom_math::{SimTime, Vec2};
 
 use super::{FastBody, way_box};
 use crate::Engine;
+use crate::rows::Shifted;
 
 /// A body that touches so often within a sub-step is stopped there.
 const MOST: u8 = 3;
@@ -60,8 +61,7 @@ pub(super) struct Fast {
     pub(super) left: f64,
     /// How many of them were noted: those after them were touched, and are in no order.
     pub(super) in_order: usize,
-    /// Lines of two free bodies that touched, and how far each is off where it was going, in m.
-    pub(super) shifted: Vec<([u32; 2], [Vec2; 2])>,
+    pub(super) shifted: Vec<Shifted>,
 }
 
 impl Fast {

@@ -42,7 +42,7 @@ pub(crate) use line::{Line, Quad};
 pub(crate) use renew::renew;
 pub(crate) use restitution::{Arrival, REST, arrivals, bounce};
 pub(crate) use rotating::{RotatingRows, Side};
-pub(crate) use shifted::turn_shifted;
+pub(crate) use shifted::{Shifted, turn_shifted};
 pub(crate) use transpose::{Numbers, Wide, any};
 pub(crate) use ways::Ways;
 pub(crate) use widest::widest;

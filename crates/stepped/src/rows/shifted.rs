@@ -11,12 +11,15 @@
 use carom_math::{Vec2, perp};
 
 use super::free::{Turn, turn_pair};
-use super::line::Quad;
+use super::line::{Line, Quad};
 use crate::bodies::Bodies;
 use crate::groups::Groups;
 
-/// Gives back what shifts of two free bodies each, in m, added.
-pub(crate) fn turn_shifted(bodies: &mut Bodies, shifted: &[([u32; 2], [Vec2; 2])]) {
+/// Two free bodies that touched, by line, and how far each is off where it was going, in m.
+pub(crate) type Shifted = ([u32; 2], [Vec2; 2]);
+
+/// Gives back what shifts added; what that added to velocities, by line.
+pub(crate) fn turn_shifted(bodies: &mut Bodies, shifted: &[Shifted]) -> Vec<(u32, Quad)> {
     let turn = |&(lines, shifts): &([u32; 2], [Vec2; 2])| {
         let added = lines.iter().zip(shifts).map(|(line, shift)| {
             let line = &bodies.lines[*line as usize];
@@ -32,6 +35,10 @@ pub(crate) fn turn_shifted(bodies: &mut Bodies, shifted: &[([u32; 2], [Vec2; 2])
     let mut lines: Vec<u32> = turns.iter().flat_map(|turn| turn.lines).collect();
     lines.sort_unstable();
     lines.dedup();
+    let before: Vec<(u32, Line)> = lines
+        .iter()
+        .map(|line| (*line, bodies.lines[*line as usize]))
+        .collect();
     let rests: Vec<f64> = turns.iter().map(|turn| turn_pair(bodies, turn)).collect();
     if rests.iter().any(|rest| *rest != 0.0) {
         let place = |line: u32| lines.partition_point(|known| *known < line);
@@ -52,6 +59,11 @@ pub(crate) fn turn_shifted(bodies: &mut Bodies, shifted: &[([u32; 2], [Vec2; 2])
         }
     }
     lines.iter().for_each(|line| bodies.note_change(*line));
+    let added = |(at, before): (u32, Line)| {
+        let line = &bodies.lines[at as usize];
+        (at, Quad::new(line.v() - before.v(), line.w() - before.w()))
+    };
+    before.into_iter().map(added).collect()
 }
 
 /// Bodies turn as one by what gives them a moment more, in N·m·s, and move as much slower against each other as their energy asks for.

@@ -4,6 +4,7 @@ use carom_math::Vec2;
 
 use super::bounce_budget::quotient;
 use super::line::{Line, Quad};
+use super::shifted::Shifted;
 use crate::bodies::Bodies;
 
 /// Velocities with which free bodies went through the last sub-step: all impulses acted as it began, and what displaced the bodies and
@@ -15,8 +16,28 @@ pub(crate) struct Ways {
     came: Vec<(u32, Quad)>,
     /// By line: velocities that displaced the bodies, and where these brought them.
     displaced: Vec<(Quad, Quad)>,
-    /// By slot, in order: what these velocities lack of those at the end.
-    lack: Vec<(u32, Quad)>,
+    /// By slot, in order.
+    lack: Vec<(u32, Lack)>,
+    /// Slots of pairs that continuous collision shifted.
+    met: Vec<[u32; 2]>,
+}
+
+/// What the velocity on the way through a sub-step lacks of that at its end.
+#[derive(Clone, Copy, Debug, Default)]
+struct Lack {
+    /// As the sub-step begins.
+    begin: Quad,
+    /// By how much more its spin lacks as it ends, in rad/s.
+    twist: f64,
+    /// Angular momentum that the way adds since it leads elsewhere than the velocity tells, in kg m²/s.
+    drift: f64,
+}
+
+impl Lack {
+    /// Once this part of the sub-step has passed.
+    fn at(&self, passed: f64) -> (Vec2, f64) {
+        (self.begin.v(), self.begin.w() + self.twist * passed)
+    }
 }
 
 impl Ways {
@@ -25,6 +46,7 @@ impl Ways {
         self.noted = noted;
         self.came.clear();
         self.lack.clear();
+        self.met.clear();
     }
 
     /// A sub-step begins.
@@ -42,6 +64,7 @@ impl Ways {
     pub(crate) fn begin(&mut self, bodies: &Bodies) {
         self.displaced.clear();
         self.lack.clear();
+        self.met.clear();
         if self.noted && bodies.any_is_free() {
             let displaced = |line: &Line| (Quad::new(line.v(), line.w()), line.displacement());
             self.displaced.extend(bodies.lines.iter().map(displaced));
@@ -53,11 +76,54 @@ impl Ways {
         for ((line, (v, to)), at) in bodies.lines.iter().zip(&self.displaced).zip(0..) {
             if bodies.is_free(at) {
                 let (way, turn) = (line.d() - to.v(), line.turn() - to.w());
-                let lack = Quad::new(line.v() - v.v() - way / h, line.w() - v.w() - turn / h);
+                let lack = Lack {
+                    begin: Quad::new(line.v() - v.v() - way / h, line.w() - v.w() - turn / h),
+                    ..Lack::default()
+                };
                 self.lack.push((bodies.slot_of[at as usize], lack));
             }
         }
         self.lack.sort_unstable_by_key(|lack| lack.0);
+    }
+
+    /// Continuous collision `shifted` free bodies, and `added` to their velocities what gives their angular momentum back. On the way
+    /// they go elsewhere than their velocities tell: the spins of both of a pair change evenly by what that adds.
+    pub(crate) fn shift(&mut self, bodies: &Bodies, added: &[(u32, Quad)], shifted: &[Shifted]) {
+        let slot = |line: u32| bodies.slot_of[line as usize];
+        for (line, added) in added {
+            if let Some(lack) = self.lack_mut(slot(*line)) {
+                lack.begin.add(added);
+            }
+        }
+        for (lines, shifts) in shifted {
+            let (mut sum, mut inertia) = (0.0, 0.0);
+            for (line, shift) in lines.iter().zip(shifts) {
+                let known = &bodies.lines[*line as usize];
+                inertia += quotient(1.0, known.inverse_inertia());
+                if let Some(lack) = self.lack_mut(slot(*line)) {
+                    let v = known.v() - lack.begin.v();
+                    let adds = quotient(shift.perp_dot(v), known.inverse_mass());
+                    lack.drift += adds;
+                    sum += adds;
+                }
+            }
+            for line in lines {
+                let turns = bodies.lines[*line as usize].inverse_inertia() > 0.0;
+                if let Some(lack) = self.lack_mut(slot(*line)).filter(|_| turns) {
+                    lack.twist += sum / inertia;
+                }
+            }
+            self.met.push(lines.map(slot));
+        }
+    }
+
+    /// What continuous collision shifted a body against, by slot.
+    pub(crate) fn met(&self, slot: u32) -> impl Iterator<Item = u32> + '_ {
+        let other = move |pair: &[u32; 2]| {
+            let side = pair.iter().position(|one| *one == slot)?;
+            Some(pair[1 - side])
+        };
+        self.met.iter().filter_map(other)
     }
 
     /// Forgets how bodies went through the last sub-step.
@@ -65,16 +131,17 @@ impl Ways {
         self.note(self.noted);
     }
 
-    /// A body that goes, or that a caller moves, leaves what its velocity lacks to those that it is in contact with, as a push at its
-    /// centre and a turn: all keep the momentum and angular momentum that a caller sees. Each partner gets as large a part as its own
-    /// velocity lacks of momentum: what both exchanged is in that.
-    pub(crate) fn leave(&mut self, bodies: &mut Bodies, slot: u32, partners: &[u32]) {
+    /// A body that goes, or that a caller moves, once this part of the sub-step has passed, leaves what its velocity lacks to those that
+    /// it is in contact with, as a push at its centre and a turn: all keep the momentum and angular momentum that a caller sees. Each
+    /// partner gets as large a part as its own velocity lacks of momentum: what both exchanged is in that.
+    pub(crate) fn leave(&mut self, bodies: &mut Bodies, slot: u32, partners: &[u32], passed: f64) {
         let Ok(known) = self.lack.binary_search_by_key(&slot, |lack| lack.0) else {
             return;
         };
         let lacks = |slot: &u32| {
             let mass = quotient(1.0, bodies.lines[bodies.line_of(*slot)].inverse_mass());
-            self.lack(*slot).map_or(0.0, |(v, _)| v.length() * mass)
+            self.lack(*slot)
+                .map_or(0.0, |[(v, _), _]| v.length() * mass)
         };
         let parts: Vec<f64> = partners.iter().map(lacks).collect();
         let sum: f64 = parts.iter().sum();
@@ -85,10 +152,13 @@ impl Ways {
         let own = &bodies.lines[bodies.line_of(slot)];
         let mass = quotient(1.0, own.inverse_mass());
         let inertia = quotient(1.0, own.inverse_inertia());
+        let (v, w) = lack.at(passed);
+        // From here on its way leads where its velocity tells.
+        let turn = w * inertia + lack.drift * (1.0 - passed);
         let from = bodies.pose_of(slot).position;
         for (&partner, part) in partners.iter().zip(parts) {
             let part = part / sum;
-            let (push, turn) = (lack.v() * (part * mass), lack.w() * (part * inertia));
+            let (push, turn) = (v * (part * mass), turn * part);
             let arm = from - bodies.pose_of(partner).position;
             let at = bodies.line_of(partner);
             let line = &mut bodies.lines[at];
@@ -98,23 +168,26 @@ impl Ways {
             );
             line.add(&change);
             bodies.start[at].add(&change);
-            if let Ok(known) = self.lack.binary_search_by_key(&partner, |lack| lack.0) {
-                self.lack[known].1.add(&change);
+            if let Some(lack) = self.lack_mut(partner) {
+                lack.begin.add(&change);
             }
         }
     }
 
     pub(crate) fn came(&self, slot: u32) -> Option<(Vec2, f64)> {
-        of_slot(&self.came, slot)
+        let known = self.came.binary_search_by_key(&slot, |came| came.0).ok()?;
+        let (_, came) = &self.came[known];
+        Some((came.v(), came.w()))
     }
 
-    pub(crate) fn lack(&self, slot: u32) -> Option<(Vec2, f64)> {
-        of_slot(&self.lack, slot)
+    /// What the velocity of a body on its way lacks of that at the end of the sub-step, as it begins and as it ends.
+    pub(crate) fn lack(&self, slot: u32) -> Option<[(Vec2, f64); 2]> {
+        let known = self.lack.binary_search_by_key(&slot, |lack| lack.0).ok()?;
+        Some([0.0, 1.0].map(|passed| self.lack[known].1.at(passed)))
     }
-}
 
-fn of_slot(all: &[(u32, Quad)], slot: u32) -> Option<(Vec2, f64)> {
-    let known = all.binary_search_by_key(&slot, |one| one.0).ok()?;
-    let (_, one) = &all[known];
-    Some((one.v(), one.w()))
+    fn lack_mut(&mut self, slot: u32) -> Option<&mut Lack> {
+        let known = self.lack.binary_search_by_key(&slot, |lack| lack.0).ok()?;
+        Some(&mut self.lack[known].1)
+    }
 }
