@@ -65,6 +65,7 @@ mod elastic_blocks_do_not_stop;
 mod few_bodies_that_rattle_join_the_engine;
 mod how_a_heap_is_cut_changes_nothing;
 mod momentum_is_kept_within_a_sub_step;
+mod no_energy_comes_of_a_change_within_a_sub_step;
 mod no_event_lies_before_its_step;
 mod nothing_falls_through_the_wall_of_a_turning_drum;
 mod nothing_leaves_a_spinning_ring_through_its_seams;

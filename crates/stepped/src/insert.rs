@@ -74,7 +74,6 @@ impl Engine {
     pub fn remove(&mut self, id: BodyId) -> Result<(), EngineError> {
         self.wake(id)?;
         let record = *self.bodies.get(id)?;
-        self.leave_ways(id.slot, 1.0);
         self.drop_contacts(id.slot);
         self.impacts.forget(id.slot);
         for number in record.pieces() {
@@ -90,32 +89,40 @@ impl Engine {
         Ok(())
     }
 
-    /// Says that a caller moves a body, or takes it out, once this part of a sub-step has passed: its velocity gets no more what it lacks
-    /// ([`State::lack`](crate::State::lack)); those that it is in contact with answer for that.
+    /// Says that a caller moves a body, or takes it out, once this part of a sub-step has passed. It goes on as it is seen there, without
+    /// what its velocity lacks ([`State::lack`](crate::State::lack)), and so does all that contacts connect with it: what they did in
+    /// the sub-step has not happened yet, and no momentum or energy comes of half of it.
     ///
     /// # Errors
     /// [`EngineError::Stale`] if it is not in this engine.
     pub fn leave_way(&mut self, id: BodyId, passed: f64) -> Result<(), EngineError> {
-        let record = *self.bodies.get(id)?;
-        if record.line != Bodies::NONE {
-            self.leave_ways(id.slot, passed);
+        self.bodies.get(id)?;
+        if self.ways.lacks(id.slot) {
+            let island = self.connected(id.slot);
+            self.ways.leave(&mut self.bodies, &island, passed);
         }
         Ok(())
     }
 
-    /// See [`Ways::leave`](crate::rows::Ways::leave).
-    fn leave_ways(&mut self, slot: u32, passed: f64) {
-        if self.ways.lack(slot).is_none() {
-            return;
+    /// A body, and the others that contacts connect with it and move, also by what continuous collision did.
+    fn connected(&self, slot: u32) -> Vec<u32> {
+        let (mut island, mut next) = (vec![slot], 0);
+        let mut seen = vec![false; self.bodies.records.len()];
+        seen[slot as usize] = true;
+        while let Some(&slot) = island.get(next) {
+            next += 1;
+            let contacts = self.graph.of_body(&self.bodies, slot);
+            let others =
+                contacts.map(|(id, side)| self.graph.contacts[id as usize].bodies[1 - side]);
+            for other in others.chain(self.ways.met(slot)) {
+                let is_awake = self.bodies.records[other as usize].line != Bodies::NONE;
+                let moves = is_awake && self.bodies.is_dynamic(other);
+                if moves && !core::mem::replace(&mut seen[other as usize], true) {
+                    island.push(other);
+                }
+            }
         }
-        let contacts = self.graph.of_body(&self.bodies, slot);
-        let others = contacts.map(|(id, side)| self.graph.contacts[id as usize].bodies[1 - side]);
-        let is_awake = |other: &u32| self.bodies.records[*other as usize].line != Bodies::NONE;
-        let moves = |other: &u32| self.bodies.is_dynamic(*other) && is_awake(other);
-        let mut partners: Vec<u32> = others.chain(self.ways.met(slot)).filter(moves).collect();
-        partners.sort_unstable();
-        partners.dedup();
-        self.ways.leave(&mut self.bodies, slot, &partners, passed);
+        island
     }
 
     pub(crate) fn drop_contacts(&mut self, slot: u32) {

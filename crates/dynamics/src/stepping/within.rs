@@ -9,21 +9,19 @@ use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 
 impl Stepping {
-    /// Bodies that a caller changed go as they do, and what their velocities lacked stays with those they touch.
+    /// Bodies that a caller changed go on as they do, and what contacts connect with them as it is seen.
     pub(crate) fn leave_ways(&mut self, bodies: &Bodies, clock: &Clock) {
-        for &index in bodies
-            .touched
-            .iter()
-            .filter(|index| bodies.is_alive(**index))
-        {
-            self.leave_way(index, clock);
+        for &index in &bodies.touched {
+            if bodies.is_alive(index) {
+                self.leave_way(index, clock);
+            }
         }
     }
 
     /// See [`Self::leave_ways`].
     pub(crate) fn leave_way(&mut self, index: u32, clock: &Clock) {
-        let passed = ((clock.now - clock.last()) / clock.h).clamp(0.0, 1.0);
-        if let Some(id) = self.id(index) {
+        if let Some(id) = self.id(index).filter(|_| clock.is_within(clock.now)) {
+            let passed = (clock.now - clock.last()) / clock.h;
             accepted(self.engine.leave_way(id, passed));
         }
     }

@@ -131,45 +131,31 @@ impl Ways {
         self.note(self.noted);
     }
 
-    /// A body that goes, or that a caller moves, once this part of the sub-step has passed, leaves what its velocity lacks to those that
-    /// it is in contact with, as a push at its centre and a turn: all keep the momentum and angular momentum that a caller sees. Each
-    /// partner gets as large a part as its own velocity lacks of momentum: what both exchanged is in that.
-    pub(crate) fn leave(&mut self, bodies: &mut Bodies, slot: u32, partners: &[u32], passed: f64) {
-        let Ok(known) = self.lack.binary_search_by_key(&slot, |lack| lack.0) else {
+    /// The first body of an island goes, or a caller moves it, once a part of the sub-step has passed: the others go on as they are seen,
+    /// with all momentum and angular momentum.
+    pub(crate) fn leave(&mut self, bodies: &mut Bodies, island: &[u32], passed: f64) {
+        let Some((&first, others)) = island.split_first() else {
             return;
         };
-        let lacks = |slot: &u32| {
-            let mass = quotient(1.0, bodies.lines[bodies.line_of(*slot)].inverse_mass());
-            self.lack(*slot)
-                .map_or(0.0, |[(v, _), _]| v.length() * mass)
-        };
-        let parts: Vec<f64> = partners.iter().map(lacks).collect();
-        let sum: f64 = parts.iter().sum();
-        if sum <= 0.0 {
+        let Some(left) = self.lack_mut(first).map(core::mem::take) else {
             return;
+        };
+        for &other in others {
+            if let Some(lack) = self.lack_mut(other).map(core::mem::take) {
+                let (v, w) = lack.at(1.0);
+                push(bodies, other, -v, -w);
+            }
         }
-        let lack = core::mem::take(&mut self.lack[known].1);
-        let own = &bodies.lines[bodies.line_of(slot)];
-        let mass = quotient(1.0, own.inverse_mass());
-        let inertia = quotient(1.0, own.inverse_inertia());
-        let (v, w) = lack.at(passed);
-        // From here on its way leads where its velocity tells.
-        let turn = w * inertia + lack.drift * (1.0 - passed);
-        let from = bodies.pose_of(slot).position;
-        for (&partner, part) in partners.iter().zip(parts) {
-            let part = part / sum;
-            let (push, turn) = (v * (part * mass), turn * part);
-            let arm = from - bodies.pose_of(partner).position;
-            let at = bodies.line_of(partner);
-            let line = &mut bodies.lines[at];
-            let change = Quad::new(
-                push * line.inverse_mass(),
-                (turn + arm.perp_dot(push)) * line.inverse_inertia(),
-            );
-            line.add(&change);
-            bodies.start[at].add(&change);
-            if let Some(lack) = self.lack_mut(partner) {
-                lack.begin.add(&change);
+        // From here on the first one leads where its velocity tells: what its way was to add yet is not given back by the others' spins.
+        let inertia =
+            |slot: u32| quotient(1.0, bodies.lines[bodies.line_of(slot)].inverse_inertia());
+        let rest = (left.drift - left.twist * inertia(first)) * (1.0 - passed);
+        let mut met: Vec<u32> = self.met(first).collect();
+        met.retain(|slot| inertia(*slot) > 0.0);
+        let whole: f64 = met.iter().map(|slot| inertia(*slot)).sum();
+        if rest != 0.0 {
+            for slot in met {
+                push(bodies, slot, Vec2::ZERO, rest / whole);
             }
         }
     }
@@ -178,6 +164,12 @@ impl Ways {
         let known = self.came.binary_search_by_key(&slot, |came| came.0).ok()?;
         let (_, came) = &self.came[known];
         Some((came.v(), came.w()))
+    }
+
+    /// Whether a body is seen at another velocity than that at the end of the sub-step.
+    pub(crate) fn lacks(&self, slot: u32) -> bool {
+        self.lack(slot)
+            .is_some_and(|ends| ends != [(Vec2::ZERO, 0.0); 2])
     }
 
     /// What the velocity of a body on its way lacks of that at the end of the sub-step, as it begins and as it ends.
@@ -190,4 +182,12 @@ impl Ways {
         let known = self.lack.binary_search_by_key(&slot, |lack| lack.0).ok()?;
         Some(&mut self.lack[known].1)
     }
+}
+
+/// Changes the velocity of a body, which its next sub-step begins with.
+fn push(bodies: &mut Bodies, slot: u32, v: Vec2, w: f64) {
+    let (at, push) = (bodies.line_of(slot), Quad::new(v, w));
+    bodies.lines[at].add(&push);
+    bodies.start[at].add(&push);
+    bodies.note_change(bodies.records[slot as usize].line);
 }
