@@ -9,11 +9,11 @@
 //! ```
 //! Displacements that part an overlap count as impulses `j₁` that do not last.
 
-use carom_math::{Vec2, perp};
+use carom_math::perp;
 
 use super::block::LANES;
 use super::graph::Graph;
-use super::line::Quad;
+use super::turn_back::{Turn, turn_all};
 use crate::bodies::Bodies;
 
 /// The contacts of free pairs in a sub-step.
@@ -35,16 +35,6 @@ struct FreeRow {
     /// Impulses that displaced the bodies, along the normal and across, in N·s.
     along: f64,
     across: f64,
-}
-
-/// How a pair turns back.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Turn {
-    pub(super) lines: [u32; 2],
-    /// What it is to have more of angular momentum, in N·m·s.
-    pub(super) moment: f64,
-    /// The square of the greatest speed that B may have against A, in m²/s².
-    pub(super) limit: f64,
 }
 
 impl FreePairs {
@@ -118,7 +108,7 @@ impl FreePairs {
             .iter_mut()
             .filter_map(|row| row.turn(graph, bodies, h));
         self.turns.extend(turns);
-        self.turn_all(bodies);
+        turn_all(bodies, &self.turns);
     }
 
     /// The same of displacements that came afterwards.
@@ -128,31 +118,15 @@ impl FreePairs {
         self.turns.clear();
         for known in self.late.drain(..) {
             let row = &mut self.rows[known];
-            self.turns.extend(row.turn(graph, bodies, h));
+            let turn = row
+                .turn(graph, bodies, h)
+                .map(|turn| Turn { limit: 0.0, ..turn });
+            self.turns.extend(turn);
             row.lines
                 .into_iter()
                 .for_each(|line| bodies.note_change(line));
         }
-        self.turn_all(bodies);
-    }
-
-    /// All moments are those of the velocities that the displacements came with.
-    fn turn_all(&self, bodies: &mut Bodies) {
-        for turn in &self.turns {
-            let rest = turn_pair(bodies, turn);
-            let lines = turn.lines.map(|line| line as usize);
-            let inverse = lines.map(|line| bodies.lines[line].inverse_inertia());
-            let [own_a, own_b] = inverse.map(|i| if i > 0.0 { 1.0 / i } else { 0.0 });
-            if rest != 0.0 && own_a + own_b > 0.0 {
-                let turn = Quad::new(Vec2::ZERO, rest / (own_a + own_b));
-                for (line, i) in lines.into_iter().zip(inverse) {
-                    if i > 0.0 {
-                        bodies.lines[line].add(&turn);
-                        bodies.start[line].add(&turn);
-                    }
-                }
-            }
-        }
+        turn_all(bodies, &self.turns);
     }
 }
 
@@ -184,42 +158,4 @@ impl FreeRow {
             limit: v.length_squared().max(began.length_squared()),
         })
     }
-}
-
-/// Turns the velocity of B against A so that both have the moment more. It is as long as before, or as what displaced them if that was
-/// faster and no turn is enough, and on which side of the line between both it points stays. What no turn gives, in N·m·s.
-pub(super) fn turn_pair(bodies: &mut Bodies, turn: &Turn) -> f64 {
-    let [a, b] = turn.lines.map(|line| line as usize);
-    let (first, second) = (&bodies.lines[a], &bodies.lines[b]);
-    let (ma, mb) = (first.inverse_mass(), second.inverse_mass());
-    let centre = |at: usize| bodies.base[at].position + bodies.lines[at].d();
-    let (arm, v) = (centre(b) - centre(a), second.v() - first.v());
-    // By which arm × v is to change.
-    let more = turn.moment * (ma + mb);
-    let square = arm.length_squared();
-    if square <= 0.0 {
-        return turn.moment;
-    }
-    let (turns, parts) = (arm.perp_dot(v), arm.dot(v));
-    // (arm · v)² + (arm × v)² stays.
-    let left = parts * parts - more * (turns + turns + more);
-    // What displaced them may have been faster: that energy is there.
-    let most = (square * turn.limit)
-        .max(parts * parts + turns * turns)
-        .sqrt();
-    let wanted = turns + more;
-    let change = if wanted * wanted <= most * most {
-        more
-    } else {
-        most.copysign(wanted) - turns
-    };
-    let parting = left.max(0.0).sqrt().copysign(parts) - parts;
-    let scale = 1.0 / (square * (ma + mb));
-    let push = (arm * parting + perp(arm) * change) * scale;
-    for (at, push) in [(a, push * -ma), (b, push * mb)] {
-        let push = Quad::new(push, 0.0);
-        bodies.lines[at].add(&push);
-        bodies.start[at].add(&push);
-    }
-    (more - change) / (ma + mb)
 }

@@ -25,6 +25,7 @@ mod shifted;
 mod tests;
 mod transfer;
 mod transpose;
+mod turn_back;
 mod ways;
 mod widest;
 
