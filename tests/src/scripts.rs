@@ -47,6 +47,8 @@ struct Script {
     /// Reports of steps and when they ended: a sub-step may have begun in any of the last tick.
     reports: Vec<(SimTime, StepReport)>,
     standing: Standing,
+    /// The greatest energy so far, in J.
+    greatest: f64,
 }
 
 /// Plays a script of 60 calls; `stop` is asked before each.
@@ -93,6 +95,7 @@ impl Script {
             at_event: false,
             reports: Vec::new(),
             standing: Standing::default(),
+            greatest: 0.0,
         };
         script.fill();
         script
@@ -185,6 +188,7 @@ impl Script {
     }
 
     fn call(&mut self) -> Result<(), Fault> {
+        Closed::of(&self.world).is_brought_in(&mut self.greatest)?;
         // What is removed or fixed in the midst of a sub-step or flight is where the books are thinnest.
         let often = if self.at_event { 3 } else { 1 };
         let kind = self.dice.below(16 + 2 * often);
