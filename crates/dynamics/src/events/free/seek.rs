@@ -36,8 +36,8 @@ impl World {
         let Some(window) = own.meets(&theirs) else {
             return;
         };
-        // A bound, with an unknown end, may come early; a root is exact but for its rounding.
-        if window.to.is_infinite() && window.from > 0.0 {
+        // A bound, with an unknown end, may come early, but not by less than time rounds; a root is exact but for its rounding.
+        if window.to.is_infinite() && time + window.from > time {
             self.approach(index, other, window, time, Cause::Deflected);
         } else {
             self.seek(index, other, time, window, Cause::Deflected);
