@@ -7,10 +7,10 @@
 //! | broken law | hybrid | exact | stepped |
 //! |---|---|---|---|
 //! | a centre ends behind a surface, deeper than the report says | 0 | 0 | 0 |
-//! | an overlap is missed and called exact | 0 | 0 | 0 |
-//! | energy rises by more than the ledger says that sub-steps put in | 0 | 0 | 0 |
-//! | momentum of a free system is lost | 44 | 33 | 255 |
-//! | over 20 s, or a panic | 0 | 0 | 0 |
+//! | an overlap is missed and called exact | 1 | 1 | 0 |
+//! | energy rises by more than the ledger says that sub-steps put in, or these put in more than 3 % | 1 | 0 | 4 |
+//! | momentum of a free system is lost | 0 | 0 | 10 |
+//! | over 20 s, a standstill or a panic | 0 | 0 | 0 |
 //!
 //! `cargo run --release -p carom-tests --example calls -- --count 20000 --limit 20` asks for all of them, fails if any breaks, and names the seeds.
 
@@ -128,10 +128,11 @@ fn scripts_that_broke_a_law_once_keep_it() {
     ];
     let hybrid = hybrid.map(|seed| (Mode::Hybrid, seed));
     // Free bodies lost their angular momentum in the engine. 1511: an island left hard rows after its free pairs had been gathered.
-    // 128 to 1925: bodies kept blows of one that was changed before them; 2839: as 471 above. 226 to 618: what was stopped within a
+    // 128 to 1925 and 13797: bodies kept blows of one that was changed before them; 2839: as 471 above. 226 to 618: what was stopped within a
     // sub-step lacked angular momentum there.
     let stepped = [
         2, 5, 10, 13, 18, 23, 31, 33, 128, 205, 226, 256, 283, 372, 618, 1243, 1511, 1925, 2839,
+        13797,
     ];
     let stepped = stepped.map(|seed| (Mode::Stepped, seed));
     // What held two that six contacts squeeze was given back contact by contact, each of 1e11 N·s: velocities were no numbers. An

@@ -129,7 +129,8 @@ impl World {
         going.extend(&self.bodies.touched);
         going.sort_unstable();
         going.dedup();
-        stepping.leave_ways(&self.bodies, &self.clock);
+        let touched = self.bodies.touched.clone();
+        stepping.leave_ways(&mut self.bodies, &touched, &self.clock);
         self.enter_changed(stepping, end, now);
         stepping.carry(&self.bodies, &going, now);
         let left = end - now;
@@ -201,7 +202,7 @@ impl World {
         let known = self.with_engine(|world, stepping| {
             let known = stepping.id(index).is_some();
             if known {
-                stepping.leave_way(index, &world.clock);
+                stepping.leave_ways(&mut world.bodies, &[index], &world.clock);
                 stepping.remove(index);
                 world.tell_sleep(stepping, time);
             }

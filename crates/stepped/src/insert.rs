@@ -89,27 +89,30 @@ impl Engine {
         Ok(())
     }
 
-    /// Says that a caller moves a body, or takes it out, once this part of a sub-step has passed. It goes on as it is seen there, without
-    /// what its velocity lacks ([`State::lack`](crate::State::lack)), and so does all that contacts connect with it: what they did in
-    /// the sub-step has not happened yet, and no momentum or energy comes of half of it.
+    /// Says that a caller moves bodies, or takes them out, once this part of a sub-step has passed. They go on as they are seen there,
+    /// and so is all to go on that contacts connect with them: what they did in the sub-step has not happened yet, and no momentum or
+    /// energy comes of half of it. Free bodies lose what their velocities lack ([`State::lack`](crate::State::lack)); gives the others
+    /// that are connected.
     ///
     /// # Errors
-    /// [`EngineError::Stale`] if it is not in this engine.
-    pub fn leave_way(&mut self, id: BodyId, passed: f64) -> Result<(), EngineError> {
-        self.bodies.get(id)?;
-        if self.ways.lacks(id.slot) {
-            let island = self.connected(id.slot);
-            self.ways.leave(&mut self.bodies, &island, passed);
+    /// [`EngineError::Stale`] if one is not in this engine.
+    pub fn leave_ways(&mut self, ids: &[BodyId], passed: f64) -> Result<Vec<BodyId>, EngineError> {
+        for id in ids {
+            self.bodies.get(*id)?;
         }
-        Ok(())
+        let slots: Vec<u32> = ids.iter().map(|id| id.slot).collect();
+        let others = self.connected(&slots);
+        self.ways.leave(&mut self.bodies, (&slots, &others), passed);
+        let pulled = others.into_iter().filter(|other| !self.ways.knows(*other));
+        Ok(pulled.map(|slot| self.bodies.id(slot)).collect())
     }
 
-    /// A body, and the others that contacts connect with it and move, also by what continuous collision did.
-    fn connected(&self, slot: u32) -> Vec<u32> {
-        let (mut island, mut next) = (vec![slot], 0);
+    /// The bodies that contacts connect with some, and move, also by what continuous collision did.
+    fn connected(&self, slots: &[u32]) -> Vec<u32> {
+        let (mut found, mut next) = (slots.to_vec(), 0);
         let mut seen = vec![false; self.bodies.records.len()];
-        seen[slot as usize] = true;
-        while let Some(&slot) = island.get(next) {
+        slots.iter().for_each(|slot| seen[*slot as usize] = true);
+        while let Some(&slot) = found.get(next) {
             next += 1;
             let contacts = self.graph.of_body(&self.bodies, slot);
             let others =
@@ -118,11 +121,11 @@ impl Engine {
                 let is_awake = self.bodies.records[other as usize].line != Bodies::NONE;
                 let moves = is_awake && self.bodies.is_dynamic(other);
                 if moves && !core::mem::replace(&mut seen[other as usize], true) {
-                    island.push(other);
+                    found.push(other);
                 }
             }
         }
-        island
+        found.split_off(slots.len())
     }
 
     pub(crate) fn drop_contacts(&mut self, slot: u32) {

@@ -1,4 +1,4 @@
-//! Bodies without weight that a caller changes within a sub-step in which they strike something.
+//! Bodies that a caller changes within a sub-step in which they strike something.
 //!
 //! What was struck kept what the sub-step had done to it while the changed body went on as it was seen, before the blow; off a wall the
 //! blow came on top of the velocity that was set: 57 J became 339 kJ.
@@ -8,10 +8,10 @@ use carom_geometry::{Circle, ConvexPolygon, Shape};
 use carom_math::{SimTime, Vec2, vec2};
 use carom_tests::checks::Moment;
 
-fn weightless() -> World {
+fn under(gravity: Vec2) -> World {
     let settings = Settings {
         mode: Mode::Stepped,
-        gravity: Vec2::ZERO,
+        gravity,
         ..Settings::default()
     };
     World::new(settings).expect("valid")
@@ -38,7 +38,7 @@ fn within_sub_steps(mut world: World, mut ask: impl FnMut(World)) {
 
 #[test]
 fn a_ball_that_strikes_a_wall_has_the_velocity_that_it_is_given() {
-    let mut world = weightless();
+    let mut world = under(Vec2::ZERO);
     let wall = ConvexPolygon::rectangle(1.0, 20.0).expect("a wall");
     put(&mut world, BodyDef::fixed().at(vec2(5.0, 0.0)), wall, 1.0);
     let def = BodyDef::dynamic().moving(vec2(325.0, 90.0));
@@ -60,9 +60,7 @@ fn end_sub_steps(world: &mut World) {
 }
 
 /// A heavy ball and light ones in a row, each with a gap to the next.
-#[test]
-fn balls_in_a_row_keep_energy_and_momentum() {
-    let mut world = weightless();
+fn row(world: &mut World) -> Vec<BodyId> {
     let mut ids = Vec::new();
     for k in 0..5 {
         let def = BodyDef::dynamic().at(vec2(0.7 * f64::from(k), 0.05 * f64::from(k % 2)));
@@ -71,8 +69,15 @@ fn balls_in_a_row_keep_energy_and_momentum() {
             _ => (def, 1.0),
         };
         let ball = Circle::new(0.3).expect("a ball");
-        ids.push(put(&mut world, def, ball, density));
+        ids.push(put(world, def, ball, density));
     }
+    ids
+}
+
+#[test]
+fn balls_in_a_row_keep_energy_and_momentum() {
+    let mut world = under(Vec2::ZERO);
+    let ids = row(&mut world);
     let most = world.energy().kinetic;
     within_sub_steps(world, |world| {
         for &id in &ids {
@@ -87,6 +92,25 @@ fn balls_in_a_row_keep_energy_and_momentum() {
             for (missing, of) in before.missing(&Moment::of(&world)) {
                 assert!(missing < 1e-11 * of, "{missing:e} of {of:e}");
             }
+        }
+    });
+}
+
+#[test]
+fn balls_that_fall_keep_no_blow_of_one_that_is_stopped() {
+    let mut world = under(vec2(0.0, -9.81));
+    let ids = row(&mut world);
+    let most = world.energy().kinetic;
+    within_sub_steps(world, |world| {
+        for &id in &ids {
+            let mut world = world.clone();
+            world
+                .set_velocity(id, Vec2::ZERO, 0.0)
+                .expect("it is there");
+            end_sub_steps(&mut world);
+            let energy = world.energy();
+            let more = energy.mechanical() - energy.external;
+            assert!(more < 1e-3 * most, "{more} J more, of {most}");
         }
     });
 }

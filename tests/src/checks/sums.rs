@@ -94,9 +94,6 @@ pub struct Closed {
 /// several points at once give up to 2.2 % more than came in (2 of 9,000 scripts).
 const ADDED: f64 = 0.03;
 
-/// What the ledger's own sums are held to.
-const ROUNDING: f64 = 1e-11;
-
 impl Closed {
     /// At the start of a step.
     #[must_use]
@@ -133,7 +130,8 @@ impl Closed {
             (after.scheme - self.scheme).max(0.0)
         };
         let gain = after.left - self.left - owned;
-        if gain > ROUNDING * most {
+        // 1e-11 is what the ledger's own sums are held to.
+        if gain > 1e-11 * most {
             return Err(Fault::Gain(format!(
                 "{gain:e} J more than {most:e} J and {owned:e} J of sub-steps; exact: {}",
                 report.is_exact()
@@ -142,17 +140,17 @@ impl Closed {
         Ok(())
     }
 
-    /// Whether there is not much more energy than was brought in, whatever the ledger tells of the rest. Sums round by the `greatest` of
-    /// all energies, in J, which the caller keeps.
+    /// Whether there is not much more energy than was brought in, as a part of the `greatest` that ever was, in J, which the caller keeps:
+    /// whatever the ledger tells of it.
     ///
     /// # Errors
     /// What there is more.
     pub fn is_brought_in(&self, greatest: &mut f64) -> Result<(), Fault> {
         *greatest = greatest.max(self.most);
-        if self.left > ADDED * self.most + ROUNDING * *greatest {
+        if self.left > ADDED * *greatest {
             return Err(Fault::Gain(format!(
-                "{:e} J more than were brought in, of {:e} J: sub-steps put them in",
-                self.left, self.most
+                "{:e} J more than were brought in, of {:e} J at most: sub-steps put them in",
+                self.left, *greatest
             )));
         }
         Ok(())

@@ -9,21 +9,42 @@ use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 
 impl Stepping {
-    /// Bodies that a caller changed go on as they do, and what contacts connect with them as it is seen.
-    pub(crate) fn leave_ways(&mut self, bodies: &Bodies, clock: &Clock) {
-        for &index in &bodies.touched {
-            if bodies.is_alive(index) {
-                self.leave_way(index, clock);
-            }
+    /// Bodies that a caller changed or removes within a sub-step go on as they do, and what contacts connect with them as it is seen.
+    pub(crate) fn leave_ways(&mut self, bodies: &mut Bodies, changed: &[u32], clock: &Clock) {
+        let (now, left) = (clock.now, clock.next() - clock.now);
+        if !clock.is_within(now) {
+            return;
+        }
+        let there = changed.iter().filter(|index| bodies.is_alive(**index));
+        let ids: Vec<BodyId> = there.filter_map(|index| self.id(*index)).collect();
+        let passed = 1.0 - left / clock.h;
+        let Ok(pulled) = self.engine.leave_ways(&ids, passed) else {
+            return;
+        };
+        for id in pulled {
+            self.leave_blow(bodies, id, (now, left));
         }
     }
 
-    /// See [`Self::leave_ways`].
-    pub(crate) fn leave_way(&mut self, index: u32, clock: &Clock) {
-        if let Some(id) = self.id(index).filter(|_| clock.is_within(clock.now)) {
-            let passed = (clock.now - clock.last()) / clock.h;
-            accepted(self.engine.leave_way(id, passed));
+    /// A body that something pulls goes on as it is seen, without the rest of a blow: of more than twice what pulls it.
+    fn leave_blow(&mut self, bodies: &mut Bodies, id: BodyId, (now, left): (SimTime, f64)) {
+        let Ok(mut there) = self.engine.state(id) else {
+            return;
+        };
+        let index = place(&there);
+        let state = bodies.get(index);
+        let seen = (state.velocity_at(now), state.spin_at(now));
+        let (pull, twist) = bodies.pull_on(index, state.centre_at(now));
+        let after = (seen.0 + pull * left, seen.1 + twist * left);
+        let blow = there.velocity.0 - after.0;
+        if state.is_guest || blow.length() <= 2.0 * pull.length() * self.engine.settings().substep()
+        {
+            return;
         }
+        let from = (state.centre_pose(now), state.turned_at(now));
+        accepted(self.engine.set_velocity(id, after.0, after.1));
+        there.velocity = after;
+        go_evenly(bodies, now, from, [seen, after], &there, left);
     }
 
     /// Bodies that are changed or fast go on from where they are now.

@@ -131,26 +131,34 @@ impl Ways {
         self.note(self.noted);
     }
 
-    /// The first body of an island goes, or a caller moves it, once a part of the sub-step has passed: the others go on as they are seen,
-    /// with all momentum and angular momentum.
-    pub(crate) fn leave(&mut self, bodies: &mut Bodies, island: &[u32], passed: f64) {
-        let Some((&first, others)) = island.split_first() else {
-            return;
-        };
-        let Some(left) = self.lack_mut(first).map(core::mem::take) else {
-            return;
-        };
+    /// Some bodies go, or a caller moves them, once a part of the sub-step has passed: the `others` that contacts connect with them go on as
+    /// they are seen, with all momentum and angular momentum.
+    pub(crate) fn leave(
+        &mut self,
+        bodies: &mut Bodies,
+        (slots, others): (&[u32], &[u32]),
+        passed: f64,
+    ) {
         for &other in others {
             if let Some(lack) = self.lack_mut(other).map(core::mem::take) {
                 let (v, w) = lack.at(1.0);
                 push(bodies, other, -v, -w);
             }
         }
-        // From here on the first one leads where its velocity tells: what its way was to add yet is not given back by the others' spins.
+        for &slot in slots {
+            if let Some(left) = self.lack_mut(slot).map(core::mem::take) {
+                self.leave_rest(bodies, slot, &left, 1.0 - passed);
+            }
+        }
+    }
+
+    /// From here on the way of a body leads where its velocity tells: what it was to add yet is not given back by the spins of what it
+    /// met.
+    fn leave_rest(&self, bodies: &mut Bodies, slot: u32, left: &Lack, part: f64) {
         let inertia =
             |slot: u32| quotient(1.0, bodies.lines[bodies.line_of(slot)].inverse_inertia());
-        let rest = (left.drift - left.twist * inertia(first)) * (1.0 - passed);
-        let mut met: Vec<u32> = self.met(first).collect();
+        let rest = (left.drift - left.twist * inertia(slot)) * part;
+        let mut met: Vec<u32> = self.met(slot).collect();
         met.retain(|slot| inertia(*slot) > 0.0);
         let whole: f64 = met.iter().map(|slot| inertia(*slot)).sum();
         if rest != 0.0 {
@@ -166,10 +174,9 @@ impl Ways {
         Some((came.v(), came.w()))
     }
 
-    /// Whether a body is seen at another velocity than that at the end of the sub-step.
-    pub(crate) fn lacks(&self, slot: u32) -> bool {
-        self.lack(slot)
-            .is_some_and(|ends| ends != [(Vec2::ZERO, 0.0); 2])
+    /// Whether it is known how a body went through the last sub-step.
+    pub(crate) fn knows(&self, slot: u32) -> bool {
+        self.lack(slot).is_some()
     }
 
     /// What the velocity of a body on its way lacks of that at the end of the sub-step, as it begins and as it ends.
