@@ -202,7 +202,10 @@ impl World {
         let known = self.with_engine(|world, stepping| {
             let known = stepping.id(index).is_some();
             if known {
-                stepping.leave_ways(&mut world.bodies, &[index], &world.clock);
+                // What time goes on from is a caller's to change; the engine itself lets go what has no contact.
+                if time == world.clock.now {
+                    stepping.leave_ways(&mut world.bodies, &[index], &world.clock);
+                }
                 stepping.remove(index);
                 world.tell_sleep(stepping, time);
             }
