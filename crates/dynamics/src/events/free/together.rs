@@ -29,6 +29,9 @@ const FADING: f64 = 1e-6;
 /// Points and normals that differ by less, as a fraction of the size, are those of a seam.
 const SEAM: f64 = 1e-6;
 
+/// Searches for each body within one instant. 3,000 scripts of `tests/it` ask for 0.2 at most; one asked for so many that it did not end.
+const SEARCHES: usize = 16;
+
 /// An impact that waits for its turn, with its entry.
 type Due = (Entry, Foreseen);
 
@@ -105,13 +108,18 @@ impl World {
         ]
     }
 
-    /// Lays all impacts aside that are due by `limit`, once all searches due by then are done.
+    /// Lays all impacts aside that are due by `limit`, once all searches due by then are done: all but what would use up the work of a
+    /// call between two events.
     fn lay_aside(&mut self, limit: SimTime) {
-        while let Some(entry) = self.free.pop_queued(&self.bodies, limit) {
+        let mut searches = SEARCHES * (1 + self.bodies.places());
+        while searches > 0
+            && let Some(entry) = self.free.pop_queued(&self.bodies, limit)
+        {
             if entry.what.slot().is_some() {
                 self.free.aside.lay(entry);
             } else {
                 self.run_search(&entry);
+                searches -= 1;
             }
         }
     }
