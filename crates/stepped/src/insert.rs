@@ -89,10 +89,10 @@ impl Engine {
         Ok(())
     }
 
-    /// Says that a caller moves bodies, or takes them out, once this part of a sub-step has passed. They go on as they are seen there,
-    /// and so is all to go on that contacts connect with them: what they did in the sub-step has not happened yet, and no momentum or
-    /// energy comes of half of it. Free bodies lose what their velocities lack ([`State::lack`](crate::State::lack)); gives the others
-    /// that are connected.
+    /// Says that a caller moves bodies, or takes them out, once this part of a sub-step has passed. They go on as they are seen there, and
+    /// all that contacts connect with them goes on as it is seen, too: what contacts did in the sub-step has not happened yet, and no
+    /// momentum or energy comes of half of it. Free bodies lose what their velocities lack ([`State::lack`](crate::State::lack)). Gives
+    /// those of the connected ones that something pulls: how they are seen is the caller's to know.
     ///
     /// # Errors
     /// [`EngineError::Stale`] if one is not in this engine.
