@@ -435,6 +435,13 @@ impl Bodies {
         limit.is_far((line.v() * h).length_squared(), line.w() * h)
     }
 
+    /// Changes the velocity of the body of a line by what lasts: its next sub-step begins with it.
+    pub(crate) fn push(&mut self, line: u32, push: &Quad) {
+        let at = line as usize;
+        self.lines[at].add(push);
+        self.start[at].add(push);
+    }
+
     /// The body of a line has another velocity than the last sub-step left it with.
     pub(crate) fn note_change(&mut self, line: u32) {
         self.deviating.push(line);

@@ -10,6 +10,7 @@ use carom_math::{Pose, SimTime, Vec2};
 
 use crate::events::free::FreeBodies;
 use crate::motion::flight::fly;
+use crate::stepping::is_blow;
 use crate::store::course::Course;
 use crate::store::pull::Pull;
 use crate::store::state::BodyState;
@@ -47,7 +48,7 @@ impl World {
         self.disturb(index, |state| {
             let in_engine = state.in_engine();
             let motion = &mut state.motion;
-            if in_engine && (motion.acceleration - pull).length() > 2.0 * pull.length() {
+            if in_engine && is_blow(motion.acceleration - pull, pull) {
                 // The rest of a blow of this sub-step is not for the velocity that it has now.
                 (motion.acceleration, motion.angular_acceleration) = (pull, twist);
             }

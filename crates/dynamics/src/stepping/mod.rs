@@ -36,6 +36,7 @@ use crate::values::error::SettingsError;
 use crate::{Mode, Settings};
 
 pub(crate) use join::{Joins, MANY};
+pub(crate) use within::is_blow;
 
 /// The engine, and which bodies of the world its bodies are.
 #[derive(Clone, Debug)]

@@ -1,12 +1,17 @@
 //! Changes in the middle of a sub-step: bodies go on from where they are, and not through others.
 
-use carom_math::SimTime;
+use carom_math::{SimTime, Vec2};
 use carom_stepped::BodyId;
 
 use super::write::go_evenly;
 use super::{Stepping, accepted, place};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
+
+/// Whether contacts accelerate a body, in m/s², by more than what bears it does against what pulls it.
+pub(crate) fn is_blow(acceleration: Vec2, pull: Vec2) -> bool {
+    acceleration.length() > 2.0 * pull.length()
+}
 
 impl Stepping {
     /// Bodies that a caller changed or removes within a sub-step go on as they do, and what contacts connect with them as it is seen.
@@ -36,9 +41,8 @@ impl Stepping {
         let seen = (state.velocity_at(now), state.spin_at(now));
         let (pull, twist) = bodies.pull_on(index, state.centre_at(now));
         let after = (seen.0 + pull * left, seen.1 + twist * left);
-        let blow = there.velocity.0 - after.0;
-        if state.is_guest || blow.length() <= 2.0 * pull.length() * self.engine.settings().substep()
-        {
+        let h = self.engine.settings().substep();
+        if state.is_guest || !is_blow((there.velocity.0 - after.0) / h, pull) {
             return;
         }
         let from = (state.centre_pose(now), state.turned_at(now));

@@ -246,8 +246,7 @@ impl Engine {
             let (known, motion) = (&self.bodies.lines[at], &body.motion);
             if motion.velocity.length_squared() <= known.v().length_squared() {
                 let lost = Quad::new(motion.velocity - known.v(), -known.w());
-                self.bodies.lines[at].add(&lost);
-                self.bodies.start[at].add(&lost);
+                self.bodies.push(line, &lost);
                 self.bodies.note_change(line);
             }
         }

@@ -6,7 +6,7 @@
 
 use super::bounce::Bounce;
 use super::integrate::velocity_before;
-use super::line::{Line, Quad};
+use super::line::{Line, Quad, quotient};
 use super::restitution::Arrival;
 use crate::bodies::Bodies;
 use crate::groups::Groups;
@@ -101,8 +101,7 @@ pub(super) fn keep(
             back[group[0].group] = r;
             for pushed in group {
                 let back = Quad(pushed.push.0.map(|x| -r * x));
-                bodies.lines[pushed.line as usize].add(&back);
-                bodies.start[pushed.line as usize].add(&back);
+                bodies.push(pushed.line, &back);
             }
         }
     }
@@ -171,9 +170,4 @@ fn excess(bodies: &Bodies, group: &[Pushed], before: &[Before]) -> f64 {
 fn kinetic(body: &Line, [x, y, w]: [f64; 3]) -> f64 {
     let straight = quotient(x * x + y * y, body.inverse_mass());
     0.5 * (straight + quotient(w * w, body.inverse_inertia()))
-}
-
-/// x times a mass or inertia, given its inverse; 0 of what cannot be moved.
-pub(crate) fn quotient(x: f64, inverse: f64) -> f64 {
-    if inverse > 0.0 { x / inverse } else { 0.0 }
 }

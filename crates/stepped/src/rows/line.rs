@@ -60,6 +60,11 @@ impl Line {
         self.0[7]
     }
 
+    /// In kg m², if contacts turn it; else 0.
+    pub(crate) fn inertia(&self) -> f64 {
+        quotient(1.0, self.inverse_inertia())
+    }
+
     pub(crate) const fn set_velocity(&mut self, v: Vec2, w: f64) {
         (self.0[0], self.0[1], self.0[2]) = (v.x, v.y, w);
     }
@@ -84,6 +89,11 @@ impl Line {
     pub(crate) const fn clear_displacement(&mut self) {
         (self.0[4], self.0[5], self.0[6]) = (0.0, 0.0, 0.0);
     }
+}
+
+/// x times a mass or inertia, given its inverse; 0 of what cannot be moved.
+pub(crate) fn quotient(x: f64, inverse: f64) -> f64 {
+    if inverse > 0.0 { x / inverse } else { 0.0 }
 }
 
 /// A velocity or acceleration: vx vy ω and a fourth number that stays.

@@ -9,7 +9,6 @@
 
 use carom_math::{Vec2, perp};
 
-use super::bounce_budget::quotient;
 use super::line::Quad;
 use crate::bodies::Bodies;
 use crate::groups::Groups;
@@ -90,10 +89,8 @@ fn turn_pair(bodies: &mut Bodies, turn: &Turn) -> f64 {
     let parting = left.max(0.0).sqrt().copysign(parts) - parts;
     let scale = 1.0 / (square * (ma + mb));
     let push = (arm * parting + perp(arm) * change) * scale;
-    for (at, push) in [(a, push * -ma), (b, push * mb)] {
-        let push = Quad::new(push, 0.0);
-        bodies.lines[at].add(&push);
-        bodies.start[at].add(&push);
+    for (line, push) in turn.lines.into_iter().zip([push * -ma, push * mb]) {
+        bodies.push(line, &Quad::new(push, 0.0));
     }
     (more - change) / (ma + mb)
 }
@@ -102,7 +99,7 @@ fn turn_pair(bodies: &mut Bodies, turn: &Turn) -> f64 {
 fn spin_pair(bodies: &mut Bodies, turn: &Turn, moment: f64) -> bool {
     let (mut inertia, mut turns, mut inverse_mass) = (0.0, 0.0, 0.0);
     for line in turn.lines.map(|line| &bodies.lines[line as usize]) {
-        let own = quotient(1.0, line.inverse_inertia());
+        let own = line.inertia();
         inertia += own;
         turns += own * line.w();
         inverse_mass += line.inverse_mass();
@@ -115,17 +112,15 @@ fn spin_pair(bodies: &mut Bodies, turn: &Turn, moment: f64) -> bool {
     let gives = energy <= 0.5 * turn.limit / inverse_mass;
     for line in turn.lines.into_iter().filter(|_| gives) {
         if bodies.lines[line as usize].inverse_inertia() > 0.0 {
-            let push = Quad::new(Vec2::ZERO, spin);
-            bodies.lines[line as usize].add(&push);
-            bodies.start[line as usize].add(&push);
+            bodies.push(line, &Quad::new(Vec2::ZERO, spin));
         }
     }
     gives
 }
 
 /// Bodies turn as one by what gives them a moment more, in N·m·s, and move as much slower against each other as their energy asks for.
-fn turn_as_one(bodies: &mut Bodies, lines: &[u32], moment: f64) {
-    let lines = || lines.iter().map(|line| *line as usize);
+fn turn_as_one(bodies: &mut Bodies, group: &[u32], moment: f64) {
+    let lines = || group.iter().map(|line| *line as usize);
     let centre = |bodies: &Bodies, at: usize| bodies.base[at].position + bodies.lines[at].d();
     let (mut mass, mut middle, mut pushes) = (0.0, Vec2::ZERO, Vec2::ZERO);
     for at in lines() {
@@ -161,9 +156,9 @@ fn turn_as_one(bodies: &mut Bodies, lines: &[u32], moment: f64) {
     let own = turns / whole;
     let (left, against) = (energy - whole * spin * spin, energy - whole * own * own);
     let part = (left / against).max(0.0).sqrt().min(1.0);
-    for at in lines() {
-        let arm = centre(bodies, at) - middle;
-        let line = &bodies.lines[at];
+    for &at in group {
+        let arm = centre(bodies, at as usize) - middle;
+        let line = &bodies.lines[at as usize];
         let v = (line.v() - mean - perp(arm) * own) * part + perp(arm) * spin;
         let turns = line.inverse_inertia() > 0.0;
         let w = if turns {
@@ -172,7 +167,6 @@ fn turn_as_one(bodies: &mut Bodies, lines: &[u32], moment: f64) {
             line.w()
         };
         let push = Quad::new(v + mean - line.v(), w - line.w());
-        bodies.lines[at].add(&push);
-        bodies.start[at].add(&push);
+        bodies.push(at, &push);
     }
 }

@@ -2,8 +2,7 @@
 
 use carom_math::Vec2;
 
-use super::bounce_budget::quotient;
-use super::line::{Line, Quad};
+use super::line::{Line, Quad, quotient};
 use super::shifted::Shifted;
 use crate::bodies::Bodies;
 
@@ -99,7 +98,7 @@ impl Ways {
             let (mut sum, mut inertia) = (0.0, 0.0);
             for (line, shift) in lines.iter().zip(shifts) {
                 let known = &bodies.lines[*line as usize];
-                inertia += quotient(1.0, known.inverse_inertia());
+                inertia += known.inertia();
                 if let Some(lack) = self.lack_mut(slot(*line)) {
                     let v = known.v() - lack.begin.v();
                     let adds = quotient(shift.perp_dot(v), known.inverse_mass());
@@ -155,8 +154,7 @@ impl Ways {
     /// From here on the way of a body leads where its velocity tells: what it was to add yet is not given back by the spins of what it
     /// met.
     fn leave_rest(&self, bodies: &mut Bodies, slot: u32, left: &Lack, part: f64) {
-        let inertia =
-            |slot: u32| quotient(1.0, bodies.lines[bodies.line_of(slot)].inverse_inertia());
+        let inertia = |slot: u32| bodies.lines[bodies.line_of(slot)].inertia();
         let rest = (left.drift - left.twist * inertia(slot)) * part;
         let mut met: Vec<u32> = self.met(slot).collect();
         met.retain(|slot| inertia(*slot) > 0.0);
@@ -191,10 +189,9 @@ impl Ways {
     }
 }
 
-/// Changes the velocity of a body, which its next sub-step begins with.
+/// Changes the velocity of a body that is awake.
 fn push(bodies: &mut Bodies, slot: u32, v: Vec2, w: f64) {
-    let (at, push) = (bodies.line_of(slot), Quad::new(v, w));
-    bodies.lines[at].add(&push);
-    bodies.start[at].add(&push);
-    bodies.note_change(bodies.records[slot as usize].line);
+    let line = bodies.records[slot as usize].line;
+    bodies.push(line, &Quad::new(v, w));
+    bodies.note_change(line);
 }
