@@ -371,16 +371,12 @@ impl<'a> Approach<'a> {
                 most: bend,
             };
         }
-        let still = match axis {
-            Axis::Edge { owner, .. } => self.spin[owner] == 0.0,
-            Axis::World { .. } => true,
+        let lasts = match axis {
+            Axis::Edge { owner, .. } if self.turns(owner) => self.segment(at),
+            Axis::Edge { owner, .. } => self.spin_lasts(1 - owner, at),
+            Axis::World { .. } => self.spin_lasts(0, at).min(self.spin_lasts(1, at)),
         };
-        // Bounds along an axis that stays as it is hold for all times.
-        let end = if still && self.turns_evenly() {
-            window.until
-        } else {
-            (tau + self.segment(at)).min(window.until)
-        };
+        let end = (tau + lasts).min(window.until);
         let alpha = self.angular_acceleration;
         let spin = |k: usize| self.spin_over(k, tau, end);
         let turning = |k: usize| spin(k) * spin(k) + alpha[k].abs();
@@ -421,7 +417,23 @@ impl<'a> Approach<'a> {
         self.angular_acceleration.iter().all(|alpha| *alpha == 0.0)
     }
 
-    /// How long bounds taken now stay tight: two sizes of travel.
+    /// Whether a hull turns, now or later.
+    fn turns(&self, k: usize) -> bool {
+        self.spin[k] != 0.0 || self.angular_acceleration[k] != 0.0
+    }
+
+    /// How long the bound on the way that the vertices of a hull bend in a frame at rest stays tight, (ω² + |α|) ρ: until it
+    /// is four times as much, or twice where nothing turns yet.
+    fn spin_lasts(&self, k: usize, at: &Instant) -> f64 {
+        let alpha = self.angular_acceleration[k].abs();
+        if alpha == 0.0 || self.arm[k] == 0.0 {
+            f64::INFINITY
+        } else {
+            (at.spin[k].abs() / alpha).max(alpha.sqrt().recip())
+        }
+    }
+
+    /// How long bounds taken now along an axis that turns stay tight: two sizes of travel.
     fn segment(&self, at: &Instant) -> f64 {
         let size = 2.0 * (self.reach[0] + self.reach[1]);
         // fast t + pull t²/2 = size, in the form that does not cancel.
