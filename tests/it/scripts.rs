@@ -1,8 +1,8 @@
 //! Random scripts of public calls, checked by code that shares nothing with the library. New ones in each run: the first seed is
 //! printed, `CAROM_SEED` sets it, and where property tests are told to repeat themselves (`PROPTEST_RNG_SEED`, as in CI), so do these.
 //!
-//! Asserted: nothing panics, every call ends, equal calls leave equal bits, and scripts that broke a law once keep it. Which laws break
-//! else is printed, not asserted, since some still do. Of the scripts 1 to 20,000, 20 s each:
+//! Asserted: nothing panics, every call ends, equal calls leave equal bits, in stepped mode in any units, and scripts that broke a law
+//! once keep it. Which laws break else is printed, not asserted, since some still do. Of the scripts 1 to 20,000, 20 s each:
 //!
 //! | broken law | hybrid | exact | stepped |
 //! |---|---|---|---|
@@ -20,7 +20,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, UNIX_EPOCH};
 
 use carom_dynamics::Mode;
-use carom_tests::scripts::{End, play};
+use carom_tests::scripts::{End, Units, ends_in_units, play};
 
 /// Scripts in each mode.
 const COUNT: u64 = 134;
@@ -103,6 +103,47 @@ fn random_scripts_end_and_leave_equal_bits_in_exact_mode() {
 #[test]
 fn random_scripts_end_and_leave_equal_bits_in_stepped_mode() {
     ask(Mode::Stepped);
+}
+
+/// Scripts in small units, in which no impulse is beyond the limit of the world, and in such that are a power of two larger: all is the
+/// same then but for the exponents of numbers.
+fn ask_in_units(mode: Mode, change: impl Fn(Units) -> Units) {
+    let first = first();
+    println!("{mode:?}: scripts {first} on; CAROM_SEED={first} asks them again");
+    let small = Units {
+        length: 1.0 / 4096.0,
+        ..Units::ONE
+    };
+    for seed in first..first + COUNT {
+        let [one, other] = [small, change(small)].map(|units| ends_in_units(mode, seed, units));
+        assert_eq!(one, other, "{mode:?}, script {seed}");
+    }
+}
+
+#[test]
+fn no_length_is_absolute_in_stepped_mode() {
+    ask_in_units(Mode::Stepped, |small| Units {
+        length: 4.0 * small.length,
+        ..small
+    });
+}
+
+#[test]
+fn no_time_is_absolute_in_stepped_mode() {
+    ask_in_units(Mode::Stepped, |small| Units {
+        time: 4.0 * small.time,
+        ..small
+    });
+}
+
+#[test]
+fn no_mass_is_absolute() {
+    for mode in [Mode::Stepped, Mode::Hybrid, Mode::Exact] {
+        ask_in_units(mode, |small| Units {
+            density: 4.0 * small.density,
+            ..small
+        });
+    }
 }
 
 #[test]

@@ -7,7 +7,8 @@
 use core::sync::atomic::{AtomicBool, Ordering};
 
 use carom_dynamics::{
-    BodyDef, BodyId, BodyKind, Impulse, Material, Mode, Settings, StepReport, World,
+    BodyDef, BodyId, BodyKind, Impulse, Material, Mode, Settings, Sleep, Softness, StepReport,
+    World,
 };
 use carom_geometry::HalfPlane;
 use carom_math::{SimTime, Vec2, vec2};
@@ -40,7 +41,8 @@ struct Script {
     dice: Dice,
     room: Room,
     ids: Vec<BodyId>,
-    /// Unit of length, in m.
+    units: Units,
+    /// What lengths are drawn by, in m.
     size: f64,
     /// The last step ended at an event.
     at_event: bool,
@@ -51,11 +53,18 @@ struct Script {
     greatest: f64,
 }
 
-/// Plays a script of 60 calls; `stop` is asked before each.
+/// Calls of a script.
+const CALLS: usize = 60;
+
+/// Plays a script; `stop` is asked before each call.
 #[must_use]
 pub fn play(mode: Mode, seed: u64, stop: &AtomicBool) -> End {
-    let mut script = Script::new(mode, seed);
-    for call in 0..60 {
+    let stock = Settings {
+        mode,
+        ..Settings::default()
+    };
+    let mut script = Script::new(stock, seed, Units::ONE);
+    for call in 0..CALLS {
         if stop.load(Ordering::Relaxed) {
             return End::Stopped;
         }
@@ -66,8 +75,77 @@ pub fn play(mode: Mode, seed: u64, stop: &AtomicBool) -> End {
     End::Passed(script.world.state_hash())
 }
 
+/// By what all lengths, times and densities of a script are multiplied.
+#[derive(Clone, Copy, Debug)]
+pub struct Units {
+    /// Of lengths.
+    pub length: f64,
+    /// Of times.
+    pub time: f64,
+    /// Of densities.
+    pub density: f64,
+}
+
+impl Units {
+    /// As they are.
+    pub const ONE: Self = Self {
+        length: 1.0,
+        time: 1.0,
+        density: 1.0,
+    };
+
+    fn speed(self) -> f64 {
+        self.length / self.time
+    }
+
+    fn settings(self, stock: Settings) -> Settings {
+        Settings {
+            gravity: stock.gravity * (self.speed() / self.time),
+            tick: stock.tick * self.time,
+            substep: stock.substep * self.time,
+            sleep: stock.sleep.map(|sleep| Sleep {
+                speed: sleep.speed * self.speed(),
+                time: sleep.time * self.time,
+            }),
+            contact: Softness {
+                frequency: stock.contact.frequency / self.time,
+                push_out: stock.contact.push_out * self.speed(),
+                ..stock.contact
+            },
+            ..stock
+        }
+    }
+}
+
+/// Centres, velocities, angles and spins that a script ends with, in its units; numbers below the normal ones are 0.
+#[must_use]
+pub fn ends_in_units(mode: Mode, seed: u64, units: Units) -> Vec<[f64; 6]> {
+    // An instant is a count of 1/64 s and a rest: where a sub-step is 1/512 s it is exact in all units.
+    let stock = Settings {
+        mode,
+        tick: 1.0 / 64.0,
+        substep: 1.0 / 512.0,
+        ..Settings::default()
+    };
+    let mut script = Script::new(stock, seed, units);
+    for _ in 0..CALLS {
+        // What breaks a law breaks it in all units.
+        let _ = script.call();
+    }
+    let bodies = script.world.bodies().map(|body| {
+        let (centre, velocity) = (
+            body.centre() / units.length,
+            body.velocity() / units.speed(),
+        );
+        let (angle, spin) = (body.angle(), body.angular_velocity() * units.time);
+        [centre.x, centre.y, velocity.x, velocity.y, angle, spin]
+            .map(|x| if x.is_normal() { x } else { 0.0 })
+    });
+    bodies.collect()
+}
+
 impl Script {
-    fn new(mode: Mode, seed: u64) -> Self {
+    fn new(stock: Settings, seed: u64, units: Units) -> Self {
         let mut dice = Dice::new(seed);
         let room = [Room::Walled, Room::Walled, Room::Free][dice.below(3)];
         let size = if dice.chance(0.5) {
@@ -76,22 +154,22 @@ impl Script {
             dice.log(1e-3, 1e3)
         };
         let falls = room == Room::Walled && dice.chance(0.6);
-        let settings = Settings {
-            mode,
+        let settings = units.settings(Settings {
             gravity: if falls {
                 vec2(0.0, -10.0 * size)
             } else {
                 Vec2::ZERO
             },
-            sleep: Settings::default().sleep.filter(|_| dice.chance(0.7)),
-            ..Settings::default()
-        };
+            sleep: stock.sleep.filter(|_| dice.chance(0.7)),
+            ..stock
+        });
         let mut script = Self {
             world: World::new(settings).expect("valid settings"),
             dice,
             room,
             ids: Vec::new(),
-            size,
+            units,
+            size: size * units.length,
             at_event: false,
             reports: Vec::new(),
             standing: Standing::default(),
@@ -133,7 +211,7 @@ impl Script {
     fn material(&mut self, density: f64) -> Material {
         let dice = &mut self.dice;
         Material {
-            density,
+            density: density * self.units.density,
             friction: [0.0, 0.5, dice.between(0.0, 1.2)][dice.below(3)],
             restitution: [0.0, 1.0, dice.between(0.0, 1.0)][dice.below(3)],
             ..Material::default()
@@ -143,7 +221,7 @@ impl Script {
     fn speed(&mut self) -> f64 {
         let fast = self.dice.chance(0.1);
         let most = if fast { 1e3 } else { 10.0 };
-        self.dice.between(0.0, most) * self.size
+        self.dice.between(0.0, most) * self.size / self.units.time
     }
 
     fn insert(&mut self, at: Vec2) {
@@ -167,7 +245,7 @@ impl Script {
             let velocity = self.dice.inside(1.0) * self.speed();
             def = def
                 .moving(velocity)
-                .spinning(self.dice.between(-10.0, 10.0));
+                .spinning(self.dice.between(-10.0, 10.0) / self.units.time);
         }
         // With sizes from 0.03 to 1, mass ratios go to some 1e6.
         let density = if self.dice.chance(0.5) {
@@ -197,7 +275,7 @@ impl Script {
             0..12 => return self.step(),
             12 | 13 => {
                 let velocity = self.dice.inside(1.0) * self.speed();
-                let spin = self.dice.between(-20.0, 20.0);
+                let spin = self.dice.between(-20.0, 20.0) / self.units.time;
                 // A stale id is refused.
                 let _ = self.world.set_velocity(id, velocity, spin);
             }
@@ -238,7 +316,7 @@ impl Script {
         } else {
             parts
         };
-        let dt = f64::from(parts) / 65_536.0;
+        let dt = f64::from(parts) / 65_536.0 * self.units.time;
         self.at_event = self.dice.chance(0.3);
         let tick = self.world.settings().tick;
         let since = self.world.time();

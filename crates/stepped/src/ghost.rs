@@ -270,7 +270,7 @@ impl Rows {
             let near = gaps[0].min(gaps[1]);
             let apart = if side == 1 { near.max(0.0) } else { 0.0 };
             let first = first - normal * (apart + 0.5 * near.min(0.0));
-            let last = first - perp(n) * if two { block.l[lane] } else { 0.0 };
+            let last = first - perp(n) * block.l[lane];
             (self.nx[k], self.ny[k]) = (normal.x, normal.y);
             (self.x1[k], self.y1[k]) = (first.x, first.y);
             (self.x2[k], self.y2[k]) = (last.x, last.y);

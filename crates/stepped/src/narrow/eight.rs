@@ -127,7 +127,7 @@ impl Found {
             normal: rows.normal(lane),
             arm_a: rows.a1[lane],
             arm_b: rows.b1[lane],
-            length: if two { rows.l[lane] } else { 0.0 },
+            length: rows.l[lane],
             points: if two { 2 } else { 1 },
             tangent_a: rows.at[lane],
             tangent_b: rows.bt[lane],

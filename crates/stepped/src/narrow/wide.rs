@@ -196,12 +196,11 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let mut n_y = flip.select(-ny, ny);
     let mut a1 = flip.select(start - t_d, -last);
     let mut b1 = flip.select(start, t_d - last);
-    let mut l = single.select(one, length);
+    let mut l = single.select(zero, length);
     let mut at_ = flip.select(-beyond_height, height);
     let mut bt = flip.select(-height, beyond_height);
     let mut s1 = flip.select(gap_low, gap_high);
     let mut s2 = single.select(V::splat(simd, OPEN), flip.select(gap_high, gap_low));
-    let mut twice = single.select(zero, length);
 
     let mut on_face = one.simd_gt(zero);
     let mut short = length.simd_le(V::splat(simd, SHORT) * margin);
@@ -241,7 +240,7 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
         n_y = instead.select(m_y, n_y);
         a1 = instead.select(arm_x * m_y - arm_y * m_x, a1);
         b1 = instead.select(other_arm_x * m_y - other_arm_y * m_x, b1);
-        l = instead.select(one, l);
+        l = instead.select(zero, l);
         let (own, other) = (
             arm_x * m_x + arm_y * m_y,
             other_arm_x * m_x + other_arm_y * m_y,
@@ -251,18 +250,17 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
         bt = instead.select(other + apart, bt);
         s1 = instead.select(gap, s1);
         s2 = instead.select(V::splat(simd, OPEN), s2);
-        twice = instead.select(zero, twice);
         short |= instead;
         on_face = !instead;
     }
 
     // How far the nearer point closes until the next tick, if velocities stay but for gravity.
     let opens = n_x * vx + n_y * vy + b1 * bw - a1 * aw;
-    let opens = (opens + twice * (bw - aw)).min(opens);
+    let opens = (opens + l * (bw - aw)).min(opens);
     let pulled = (n_x * (bgx - agx) + n_y * (bgy - agy)).min(zero) * tick;
     let gone = n_x * gone_x + n_y * gone_y;
     let went = gone + b1 * bturn - a1 * aturn;
-    let went = (went + twice * (bturn - aturn)).min(went);
+    let went = (went + l * (bturn - aturn)).min(went);
     let closes = (-(opens + pulled)).max(zero) * tick - went;
     // B overlaps a piece by no more than across its cuts: the rest lies in other pieces, and leaves this one without a jump.
     let crossed = of_a.cut.max(of_b.cut) - radii;

@@ -106,7 +106,7 @@ impl Block {
         ny: [0.0; LANES],
         a1: [0.0; LANES],
         b1: [0.0; LANES],
-        l: [1.0; LANES],
+        l: [0.0; LANES],
         s1: [OPEN; LANES],
         s2: [OPEN; LANES],
         j1: [0.0; LANES],
@@ -123,9 +123,9 @@ impl Block {
         (self.a1[lane], self.b1[lane]) = (manifold.arm_a, manifold.arm_b);
         (self.at[lane], self.bt[lane]) = (manifold.tangent_a, manifold.tangent_b);
         self.s1[lane] = manifold.gaps[0];
-        // The second point of a single one never acts; its length only keeps the 2 × 2 matrix regular.
+        // The second point of a single one is at the same place, and never acts.
         let two = manifold.points == 2;
-        self.l[lane] = if two { manifold.length } else { 1.0 };
+        self.l[lane] = if two { manifold.length } else { 0.0 };
         self.s2[lane] = if two { manifold.gaps[1] } else { OPEN };
     }
 

@@ -15,8 +15,8 @@ use super::line::Line;
 use super::transpose::{Wide, any};
 use super::widest::widest;
 
-/// What is left of k₁₂: where no body can turn both points are one, and may share the load as they like. As its
-/// determinant the matrix has 2e-12 of the product of its diagonal then.
+/// What is left of k₁₂: where no body can turn, or there is but one point, both are one, and may share the load as they like.
+/// As its determinant the matrix has 2e-12 of the product of its diagonal then.
 pub(super) const REGULAR: f64 = 1.0 - 1e-12;
 
 /// What a sweep does.
