@@ -3,6 +3,7 @@
 use carom_math::Pose;
 
 use crate::bodies::{Bodies, number};
+use crate::groups::reached;
 use crate::pieces::{Disc, Piece};
 use crate::{BodyId, BodyInput, BodyKind, Engine, EngineError, PieceInput};
 
@@ -109,32 +110,24 @@ impl Engine {
 
     /// The bodies that contacts connect with some, and move, also by what continuous collision did.
     fn connected(&self, slots: &[u32]) -> Vec<u32> {
-        let (mut found, mut next) = (slots.to_vec(), 0);
+        let moves = |other: &u32| {
+            let is_awake = self.bodies.records[*other as usize].line != Bodies::NONE;
+            is_awake && self.bodies.is_dynamic(*other)
+        };
         let mut seen = vec![false; self.bodies.records.len()];
-        slots.iter().for_each(|slot| seen[*slot as usize] = true);
-        while let Some(&slot) = found.get(next) {
-            next += 1;
-            let contacts = self.graph.of_body(&self.bodies, slot);
-            let others =
-                contacts.map(|(id, side)| self.graph.contacts[id as usize].bodies[1 - side]);
-            for other in others.chain(self.ways.met(slot)) {
-                let is_awake = self.bodies.records[other as usize].line != Bodies::NONE;
-                let moves = is_awake && self.bodies.is_dynamic(other);
-                if moves && !core::mem::replace(&mut seen[other as usize], true) {
-                    found.push(other);
-                }
-            }
-        }
+        let mut found = reached(slots, &mut seen, |slot, meet| {
+            let others = self.graph.neighbours(&self.bodies, slot);
+            others
+                .chain(self.ways.met(slot))
+                .filter(moves)
+                .for_each(meet);
+        });
         found.split_off(slots.len())
     }
 
     pub(crate) fn drop_contacts(&mut self, slot: u32) {
-        let ids: Vec<u32> = self
-            .graph
-            .of_body(&self.bodies, slot)
-            .map(|(id, _)| id)
-            .collect();
-        for id in ids {
+        let contacts: Vec<_> = self.graph.of_body(&self.bodies, slot).collect();
+        for (id, _) in contacts {
             self.part(id);
         }
     }

@@ -7,6 +7,7 @@
 use carom_math::Vec2;
 
 use crate::bodies::{Bodies, Sleeper, number};
+use crate::groups::reached;
 use crate::update::nearness;
 use crate::{BodyId, BodyKind, Engine, EngineError};
 
@@ -103,11 +104,8 @@ impl Engine {
     /// The island of a body that is awake, and whether all of it has rested for so long and nothing that moves touches it. What drifts
     /// in space is not at rest, however slow: it would lose its momentum.
     fn island(&self, slot: u32, after: f64, seen: &mut [bool]) -> (Vec<u32>, bool) {
-        let (mut island, mut rests, mut supported) = (vec![slot], true, false);
-        seen[slot as usize] = true;
-        let mut next = 0;
-        while let Some(&slot) = island.get(next) {
-            next += 1;
+        let (mut rests, mut supported) = (true, false);
+        let island = reached(&[slot], seen, |slot, meet| {
             rests &= self.bodies.rest[self.bodies.line_of(slot)] >= after;
             supported |= self.rests_unsupported(slot);
             for (id, side) in self.graph.of_body(&self.bodies, slot) {
@@ -115,20 +113,15 @@ impl Engine {
                 if !self.hold_together(id) {
                     continue;
                 }
-                match self.bodies.records[other as usize].kind {
-                    BodyKind::Dynamic if !seen[other as usize] => {
-                        seen[other as usize] = true;
-                        island.push(other);
-                    }
-                    BodyKind::Dynamic => {}
-                    BodyKind::Kinematic | BodyKind::Fixed => {
-                        let (v, w) = self.bodies.velocity_of(other);
-                        rests &= v == Vec2::ZERO && w.abs() <= 0.0;
-                        supported = true;
-                    }
+                if self.bodies.is_dynamic(other) {
+                    meet(other);
+                } else {
+                    let (v, w) = self.bodies.velocity_of(other);
+                    rests &= v == Vec2::ZERO && w.abs() <= 0.0;
+                    supported = true;
                 }
             }
-        }
+        });
         (island, rests && supported)
     }
 

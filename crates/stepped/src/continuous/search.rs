@@ -143,6 +143,8 @@ impl Engine {
         if let Some((wait, normal)) = self.first_touch(&body, (piece, &motion), span, rules) {
             let birth = self.bodies.records[theirs.body as usize].birth;
             let moves = partner.filter(|other| !fast.is_stopped(*other));
+            // Which it has a row with, if perhaps none that holds it.
+            let mut neighbours = self.graph.neighbours(&self.bodies, body.slot);
             touches.push(Touching {
                 wait,
                 order: (body.birth, birth << 16 | u64::from(theirs.ordinal)),
@@ -150,7 +152,7 @@ impl Engine {
                 b: moves,
                 other: theirs.body,
                 touches: [body.touches, partner.map_or(0, |other| fast.touches(other))],
-                normal: normal.filter(|_| self.have_row(body.slot, theirs.body)),
+                normal: normal.filter(|_| neighbours.any(|other| other == theirs.body)),
                 against: body.motion.velocity - motion.velocity,
             });
         }
@@ -215,12 +217,6 @@ impl Engine {
             }
         }
         first
-    }
-
-    /// Whether two bodies have a row, if perhaps none that holds them.
-    fn have_row(&self, slot: u32, other: u32) -> bool {
-        let mut ids = self.graph.of_body(&self.bodies, slot);
-        ids.any(|(id, side)| self.graph.contacts[id as usize].bodies[1 - side] == other)
     }
 
     /// Whether a row of two pieces is there that a body on its way cannot turn out of.

@@ -135,13 +135,12 @@ fn find_fast(graph: &Graph, bodies: &Bodies, h: f64, search: &mut Search, found:
         }
     };
     for slot in fast {
-        let mut contacts = graph.of_body(bodies, slot);
         if bodies.is_dynamic(slot) {
-            if contacts.next().is_some() {
+            if graph.of_body(bodies, slot).next().is_some() {
                 ask(slot);
             }
         } else {
-            let others = contacts.map(|(id, side)| graph.contacts[id as usize].bodies[1 - side]);
+            let others = graph.neighbours(bodies, slot);
             others
                 .filter(|other| bodies.is_dynamic(*other))
                 .for_each(&mut ask);
@@ -274,8 +273,7 @@ fn is_borne(graph: &Graph, bodies: &Bodies, id: u32) -> bool {
         if !bodies.is_dynamic(slot) {
             return true;
         }
-        for (id, side) in graph.of_body(bodies, slot) {
-            let other = graph.contacts[id as usize].bodies[1 - side];
+        for other in graph.neighbours(bodies, slot) {
             if other != heavy && !leans.contains(&other) {
                 leans.push(other);
             }

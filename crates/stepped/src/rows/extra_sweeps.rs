@@ -92,10 +92,7 @@ impl ExtraSweeps {
         let mut groups = Groups::new(light.len());
         self.owner.resize(bodies.records.len(), u32::MAX);
         for ((slot, _), k) in light.iter().zip(0u32..) {
-            let others = graph
-                .of_body(bodies, *slot)
-                .map(|(id, side)| graph.contacts[id as usize].bodies[1 - side]);
-            for other in others.chain([*slot]) {
+            for other in graph.neighbours(bodies, *slot).chain([*slot]) {
                 if bodies.is_dynamic(other) {
                     let first = &mut self.owner[other as usize];
                     if *first == u32::MAX {

@@ -314,6 +314,12 @@ impl Graph {
         })
     }
 
+    /// The other bodies of its contacts, in their order: once for each.
+    pub(crate) fn neighbours(&self, bodies: &Bodies, slot: u32) -> impl Iterator<Item = u32> {
+        let contacts = self.of_body(bodies, slot);
+        contacts.map(|(id, side)| self.contacts[id as usize].bodies[1 - side])
+    }
+
     /// Tells the rows of a body that it has another line.
     pub(crate) fn renumber(&mut self, bodies: &Bodies, slot: u32) {
         let line = bodies.records[slot as usize].line;
