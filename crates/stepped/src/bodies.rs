@@ -61,9 +61,7 @@ pub(crate) struct Bodies {
 }
 
 impl Bodies {
-    /// The line that empty lanes name.
-    const EMPTY: u32 = 0;
-    /// The line of all fixed bodies.
+    /// The line of all fixed bodies; empty lanes name line 0.
     pub(crate) const GROUND: u32 = 1;
     pub(crate) const NONE: u32 = u32::MAX;
 
@@ -114,7 +112,6 @@ impl Bodies {
 
     /// Makes a record, and a line unless it is fixed; it has no pieces yet.
     pub(crate) fn insert(&mut self, input: &BodyInput, settings: &Settings) -> BodyId {
-        let dynamic = input.kind == BodyKind::Dynamic;
         let slot = self.free.pop().unwrap_or_else(|| {
             self.records.push(Record::NONE);
             number(self.records.len() - 1)
@@ -130,17 +127,13 @@ impl Bodies {
             placed: self.updates,
             pose: input.pose,
             turned: input.turned,
-            mass: if dynamic { input.mass } else { f64::INFINITY },
-            inertia: if dynamic {
-                input.inertia
-            } else {
-                f64::INFINITY
-            },
-            gravity_scale: if dynamic { input.gravity_scale } else { 0.0 },
             tag: input.tag,
-            damping: if dynamic { input.damping } else { [0.0; 2] },
             ..Record::NONE
         };
+        if input.kind == BodyKind::Dynamic {
+            (record.mass, record.inertia) = (input.mass, input.inertia);
+            (record.gravity_scale, record.damping) = (input.gravity_scale, input.damping);
+        }
         let generation = record.generation;
         if input.kind == BodyKind::Fixed {
             record.line = Self::GROUND;
@@ -185,11 +178,6 @@ impl Bodies {
         self.free_lines.push(false);
         self.note_free(line);
         (self.may_deviate, self.speedy) = (true, None);
-    }
-
-    /// How many were rebased in this tick.
-    pub(crate) fn moved_count(&self) -> usize {
-        self.moved.iter().filter(|moved| **moved).count()
     }
 
     /// Whether a body can be moved, and nothing accelerates it but contacts.
@@ -341,7 +329,7 @@ impl Bodies {
 
     /// The velocity of the body of a line before the last sub-step, of `h` seconds.
     #[inline]
-    pub(crate) fn velocity_before(&self, at: usize, h: f64) -> [f64; 3] {
+    pub(crate) fn velocity_before(&self, at: usize, h: f64) -> (Vec2, f64) {
         let drag = if self.damped > 0 {
             &self.drag[at]
         } else {
@@ -483,6 +471,3 @@ impl Bodies {
         deviates
     }
 }
-
-/// Keeps the first line's name in use: empty lanes name line 0.
-const _: () = assert!(Bodies::EMPTY == 0);

@@ -142,9 +142,10 @@ impl Engine {
     pub fn set_gravity(&mut self, gravity: Vec2) -> Result<(), EngineError> {
         finite("gravity.x", gravity.x)?;
         finite("gravity.y", gravity.y)?;
-        self.settings.gravity = gravity;
-        self.law = Law::new(&self.settings);
-        self.wake_every();
+        self.change_settings(Settings {
+            gravity,
+            ..self.settings
+        })?;
         for slot in 0..self.bodies.records.len() {
             let record = self.bodies.records[slot];
             if record.live && !matches!(record.line, Bodies::NONE | Bodies::GROUND) {
@@ -160,15 +161,10 @@ impl Engine {
     /// # Errors
     /// [`EngineError::Value`] if a number is out of its range.
     pub fn set_softness(&mut self, softness: Softness) -> Result<(), EngineError> {
-        let settings = Settings {
+        self.change_settings(Settings {
             softness,
             ..self.settings
-        };
-        settings.check()?;
-        self.settings = settings;
-        self.law = Law::new(&self.settings);
-        self.wake_every();
-        Ok(())
+        })
     }
 
     /// Changes when islands fall asleep; never if `None`. All that sleeps wakes.
@@ -176,12 +172,16 @@ impl Engine {
     /// # Errors
     /// [`EngineError::Value`] if a number is out of its range.
     pub fn set_sleep(&mut self, sleep: Option<Sleep>) -> Result<(), EngineError> {
-        let settings = Settings {
+        self.change_settings(Settings {
             sleep,
             ..self.settings
-        };
+        })
+    }
+
+    /// What sleeps came to rest by the old ones.
+    fn change_settings(&mut self, settings: Settings) -> Result<(), EngineError> {
         settings.check()?;
-        self.settings = settings;
+        (self.settings, self.law) = (settings, Law::new(&settings));
         self.wake_every();
         Ok(())
     }

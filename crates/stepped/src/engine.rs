@@ -437,7 +437,7 @@ impl Engine {
         self.belts += given;
         impacts.end(law, arrived, bodies, graph, pieces);
         let borne = hard.part(law, bodies, (graph, free), settings, false);
-        let least = seen.least_gap.min(self.deep.least_gap());
+        let least = seen.least_gap.min(self.deep.least_gap);
         self.least_gap = least.min(gap).min(borne);
         ways.end(bodies, law.h);
     }

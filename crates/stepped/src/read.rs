@@ -134,10 +134,8 @@ impl Engine {
         let record = &bodies.records[slot as usize];
         let line = &bodies.lines[at];
         let velocity = (line.v() + Vec2::ZERO, line.w() + 0.0);
-        let before = self.ways.came(slot).unwrap_or_else(|| {
-            let [x, y, w] = bodies.velocity_before(at, self.law.h);
-            (Vec2::new(x, y), w)
-        });
+        let before = self.ways.came(slot);
+        let before = before.unwrap_or_else(|| bodies.velocity_before(at, self.law.h));
         State {
             id: bodies.id(slot),
             tag: record.tag,

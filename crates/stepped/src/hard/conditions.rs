@@ -3,7 +3,7 @@
 use carom_impact::ImpactBody;
 use carom_math::Vec2;
 
-use super::solve::{Island, lane_of};
+use super::solve::Island;
 use crate::bodies::Bodies;
 use crate::rows::{Graph, Law};
 
@@ -25,7 +25,7 @@ const LIMIT: f64 = 1e-9;
 pub(super) fn rest(island: &Island, law: &Law, graph: &Graph) -> f64 {
     let mut fastest = 0.0_f64;
     for contact in &island.contacts {
-        let (block, lane) = lane_of(graph, contact.id);
+        let (block, _, lane) = graph.lane(contact.id);
         let [a, b] = island.free(contact).map(|body| (body.velocity, body.spin));
         let opens = block.along(lane, a, b);
         for (opens, gap) in opens.iter().zip(contact.gaps).take(contact.points) {
@@ -45,7 +45,7 @@ pub(super) fn answers(
     rest: f64,
 ) -> bool {
     island.contacts.iter().all(|contact| {
-        let (block, lane) = lane_of(graph, contact.id);
+        let (block, _, lane) = graph.lane(contact.id);
         let opens = block.opening(lane, &bodies.lines);
         let [j1, j2, jt] = block.impulses(lane);
         let impulse = j1.abs() + j2.abs() + jt.abs();

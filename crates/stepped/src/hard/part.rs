@@ -14,7 +14,7 @@ use carom_math::{Vec2, perp};
 
 use super::conditions::centre;
 use super::energy::work;
-use super::solve::{HardContact, Island, lane_of};
+use super::solve::{HardContact, Island};
 use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::{FreePairs, Graph, Law, Quad};
@@ -251,13 +251,13 @@ impl Island {
             }
             let all = self.contacts.iter().zip(impulses);
             let pushes = all.filter(|(other, _)| of_pair(other)).map(|(other, j)| {
-                let (block, lane) = lane_of(graph, other.id);
+                let (block, _, lane) = graph.lane(other.id);
                 block.normal(lane) * ((j[0] + j[1]) * part)
             });
             let push: Vec2 = pushes.sum();
             let [a, b] = contact.ends.map(|k| self.bodies[k].inverse_mass);
             let push = push * (fastest / (push.length() * a.min(b))).min(1.0);
-            let (block, lane) = lane_of(graph, contact.id);
+            let (block, _, lane) = graph.lane(contact.id);
             let n = block.normal(lane);
             free.add_late(graph, contact.id, (n.dot(push), perp(n).dot(push)));
         }

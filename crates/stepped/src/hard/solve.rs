@@ -1,12 +1,12 @@
 //! One island in hard rows: its velocities, and where they lead.
 
 use carom_impact::{Friction, HeldFace, HeldFaces, HeldPoint, ImpactBody, held_faces, swept_faces};
-use carom_math::{Vec2, perp, vec2};
+use carom_math::{Vec2, perp};
 
 use super::conditions::{answers, centre, justified, rest};
 use super::islands::Found;
 use crate::bodies::Bodies;
-use crate::rows::{Block, Graph, Law, OPEN, Quad};
+use crate::rows::{Graph, Law, OPEN, Quad};
 
 /// Gap or overlap that counts as 0, as a part of how far pull moves a body in a sub-step: closing what rounding left open, a column
 /// at rest would be solved for in every sub-step.
@@ -48,12 +48,6 @@ pub(super) struct Island {
     pub(super) energy: Option<f64>,
     /// Where they are then, from their bases.
     pub(super) ways: Vec<Quad>,
-}
-
-/// The lane of a contact.
-pub(super) fn lane_of(graph: &Graph, id: u32) -> (&Block, usize) {
-    let (block, _, lane) = graph.lane(id);
-    (block, lane)
 }
 
 impl Island {
@@ -117,8 +111,7 @@ impl Island {
             return known;
         }
         let (body, start) = (&bodies.lines[line as usize], &bodies.start[line as usize]);
-        let [x, y, w] = bodies.velocity_before(line as usize, law.h);
-        self.came.push((vec2(x, y), w));
+        self.came.push(bodies.velocity_before(line as usize, law.h));
         self.lines.push(line);
         self.bodies.push(ImpactBody {
             inverse_mass: body.inverse_mass(),
@@ -189,7 +182,7 @@ impl Island {
             bodies.lines[line as usize].set_velocity(body.velocity, body.spin);
         }
         for contact in &self.contacts {
-            let (block, lane) = lane_of(graph, contact.id);
+            let (block, _, lane) = graph.lane(contact.id);
             let pushes = block.push(lane, &bodies.lines);
             for (end, push) in contact.ends.into_iter().zip(&pushes) {
                 bodies.lines[self.lines[end] as usize].add(push);
@@ -201,7 +194,7 @@ impl Island {
     /// found allow, and so on. No point closes, but what rubs may do so by a little more or less than Coulomb says.
     fn hold(&self, law: &Law, graph: &Graph) -> Option<Vec<[f64; 3]>> {
         let mu = |contact: &HardContact| {
-            let (block, lane) = lane_of(graph, contact.id);
+            let (block, _, lane) = graph.lane(contact.id);
             block.mu[lane]
         };
         let opens = |gap: f64| self.closes(law, gap);
@@ -242,7 +235,7 @@ impl Island {
         rubs: impl Fn(usize, &HardContact) -> Friction,
     ) -> Vec<HeldFace> {
         let face = |(k, contact): (usize, &HardContact)| {
-            let (block, lane) = lane_of(graph, contact.id);
+            let (block, _, lane) = graph.lane(contact.id);
             let n = block.normal(lane);
             let point = |point: usize| {
                 let back = if point == 1 { block.l[lane] } else { 0.0 };
@@ -297,7 +290,7 @@ impl Island {
     /// contacts would have made slip makes none.
     pub(super) fn heat(&self, bodies: &Bodies, graph: &Graph) -> f64 {
         let of = |contact: &HardContact| {
-            let (block, lane) = lane_of(graph, contact.id);
+            let (block, _, lane) = graph.lane(contact.id);
             let [a, b] = contact.ends.map(|end| self.came[end]);
             let slips = [block.across(lane, a, b), block.slip(lane, &bodies.lines)];
             let rubbed = slips.map(|slip| (block.jt[lane] * (slip - contact.belt)).min(0.0));

@@ -118,16 +118,12 @@ impl Bounce {
         bounce
     }
 
-    fn velocities(&self, lines: &[Line]) -> [Quad; 2] {
-        self.lines.map(|line| {
-            let line = &lines[line];
-            Quad::new(line.v(), line.w())
-        })
-    }
-
     /// What both points open with, and the slip less the speed of a belt, in m/s.
     fn speeds(&self, lines: &[Line]) -> [f64; 3] {
-        let [one, other, across] = self.axes.speeds(self.velocities(lines));
+        let velocities = self
+            .lines
+            .map(|line| Quad::new(lines[line].v(), lines[line].w()));
+        let [one, other, across] = self.axes.speeds(velocities);
         [one, other, across - self.belt]
     }
 

@@ -4,8 +4,9 @@
 //! (Kane's example: a rod that strikes the ground aslant). Then the impulses of all points that hang together by bodies are
 //! made smaller by one factor.
 
+use carom_math::Vec2;
+
 use super::bounce::Bounce;
-use super::integrate::velocity_before;
 use super::line::{Line, Quad, quotient};
 use super::restitution::Arrival;
 use crate::bodies::Bodies;
@@ -31,12 +32,11 @@ pub(crate) fn note(bodies: &Bodies, lines: &[[u32; 2]], h: f64, before: &mut Vec
     all.dedup();
     for line in all {
         let at = line as usize;
-        let (body, start, pull) = (&bodies.lines[at], &bodies.start[at], &bodies.pull[at]);
-        let came = velocity_before(start, pull, &bodies.drag[at], h);
+        let body = &bodies.lines[at];
         before.push(Before {
             line,
-            kinetic: kinetic(body, came),
-            d: Quad::new(body.d(), body.turn()),
+            kinetic: kinetic(body, bodies.velocity_before(at, h)),
+            d: body.displacement(),
         });
     }
 }
@@ -135,7 +135,7 @@ fn excess(bodies: &Bodies, group: &[Pushed], before: &[Before]) -> f64 {
         let body = &bodies.lines[at];
         if body.inverse_mass() <= 0.0 {
             // Whatever drives a body may give energy.
-            if body.v() != carom_math::Vec2::ZERO || body.w().abs() > 0.0 {
+            if body.v() != Vec2::ZERO || body.w().abs() > 0.0 {
                 return 0.0;
             }
             continue;
@@ -149,7 +149,7 @@ fn excess(bodies: &Bodies, group: &[Pushed], before: &[Before]) -> f64 {
         // What the pull did on the way of this sub-step.
         let fell = mass * bodies.pull[at].v().dot(body.d() - came.d.v());
         had += came.kinetic + fell;
-        has += kinetic(body, [body.v().x, body.v().y, body.w()]);
+        has += kinetic(body, (body.v(), body.w()));
         mixed += mass * push.v().dot(body.v()) + turning(push.w() * body.w());
         square += 0.5 * (mass * push.v().length_squared() + turning(push.w() * push.w()));
     }
@@ -167,7 +167,7 @@ fn excess(bodies: &Bodies, group: &[Pushed], before: &[Before]) -> f64 {
     r.clamp(0.0, 1.0)
 }
 
-fn kinetic(body: &Line, [x, y, w]: [f64; 3]) -> f64 {
-    let straight = quotient(x * x + y * y, body.inverse_mass());
+fn kinetic(body: &Line, (v, w): (Vec2, f64)) -> f64 {
+    let straight = quotient(v.length_squared(), body.inverse_mass());
     0.5 * (straight + quotient(w * w, body.inverse_inertia()))
 }

@@ -21,7 +21,7 @@ pub(crate) struct Deep {
     /// By line, what would displace a body, in m: zero but while bodies are displaced.
     sums: Vec<Vec2>,
     /// The least of their gaps, in m.
-    least_gap: f64,
+    pub(crate) least_gap: f64,
 }
 
 impl Deep {
@@ -63,10 +63,6 @@ impl Deep {
     pub(crate) fn pairs(&self, graph: &Graph) -> impl Iterator<Item = [u32; 2]> {
         let deep = self.contacts.iter().filter(|id| graph.is_deep(**id));
         deep.map(|id| graph.contacts[*id as usize].bodies)
-    }
-
-    pub(crate) const fn least_gap(&self) -> f64 {
-        self.least_gap
     }
 
     /// Displaces the bodies of all deep contacts.
@@ -117,7 +113,10 @@ impl Deep {
         });
         for &id in &self.contacts {
             if graph.is_deep(id) {
-                show(graph, bodies, id);
+                // As deep as it is now.
+                let (colour, k, lane) = graph.colour_mut(id);
+                let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
+                cold.show((block, lane), &bodies.lines);
             }
         }
     }
@@ -144,11 +143,4 @@ impl Move {
             self.normal * (self.impulse * b),
         ]
     }
-}
-
-/// Shows the sweeps a contact as deep as it is now.
-fn show(graph: &mut Graph, bodies: &Bodies, id: u32) {
-    let (colour, k, lane) = graph.colour_mut(id);
-    let (block, cold) = (&mut colour.blocks[k], &mut colour.cold[k]);
-    cold.show((block, lane), &bodies.lines);
 }

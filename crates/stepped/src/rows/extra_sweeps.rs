@@ -7,7 +7,7 @@
 use super::graph::Graph;
 use super::kernel::Pass;
 use super::law::Law;
-use super::plain::row_again;
+use super::plain::row;
 use crate::bodies::{Bodies, BodyKind};
 use crate::groups::Groups;
 
@@ -140,7 +140,7 @@ impl ExtraSweeps {
                     debug_assert!(!contact.is_hard(), "a hard row is swept");
                     let (block, lane) = graph.block_mut(*id);
                     let [j1, j2, jt] = block.impulses(lane);
-                    row_again(pass, law, &mut bodies.lines, block, lane, belt, omega);
+                    row(pass, law, &mut bodies.lines, block, lane, belt, Some(omega));
                     let [new1, new2, new_t] = block.impulses(lane);
                     changes += (new1 - j1).abs() + (new2 - j2).abs() + (new_t - jt).abs();
                     sum += new1 + new2;

@@ -55,7 +55,7 @@ pub(crate) struct Graph {
     pub(crate) suspects: Suspects,
     free: Vec<u32>,
     /// Contacts that are too deep for the sweeps, and some that were, in no order.
-    pub(super) deep: Vec<u32>,
+    pub(crate) deep: Vec<u32>,
     /// Contacts of two bodies of very different mass, and some that were, in no order.
     pub(super) unequal: Vec<u32>,
     /// Behind those of masks the overflow colour, then those of hard rows, and last what sleeps.
@@ -122,7 +122,8 @@ impl Graph {
     pub(crate) fn touched(&self, bodies: &Bodies) -> Vec<Touched> {
         let colours = &self.colours[..self.awake_end()];
         let mut blocks: Vec<(usize, usize)> = Vec::new();
-        if FEW * bodies.moved_count() > bodies.moved.len() {
+        let moved = bodies.moved.iter().filter(|moved| **moved);
+        if FEW * moved.count() > bodies.moved.len() {
             let all = |(c, colour): (usize, &Colour)| (0..colour.blocks.len()).map(move |k| (c, k));
             blocks.extend(colours.iter().enumerate().flat_map(all));
         } else {

@@ -4,6 +4,7 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
+use carom_math::{Vec2, vec2};
 use fearless_simd::{
     ExtractToken, Level, Select, Simd, SimdBase, SimdMask, dispatch, f64x4, mask64x4,
 };
@@ -315,12 +316,13 @@ pub(crate) fn velocity_before(
     pull: &Quad,
     [left, added]: &[Quad; 2],
     h: f64,
-) -> [f64; 3] {
-    [0, 1, 2].map(|k| {
+) -> (Vec2, f64) {
+    let [x, y, w] = [0, 1, 2].map(|k| {
         if left.0[k] > LEFT {
             (start.0[k] - added.0[k] * (h * pull.0[k])) / left.0[k]
         } else {
             start.0[k]
         }
-    })
+    });
+    (vec2(x, y), w)
 }

@@ -37,21 +37,9 @@ fn positive(x: f64) -> f64 {
     larger(x, 0.0)
 }
 
-/// A row in an extra sweep, over-relaxed by `omega` in all passes.
-pub(crate) fn row_again(
-    pass: Pass,
-    law: &Law,
-    lines: &mut [Line],
-    block: &mut Block,
-    lane: usize,
-    belt: f64,
-    omega: f64,
-) {
-    row(pass, law, lines, block, lane, belt, Some(omega));
-}
-
-/// Bodies that no lane of the block shares may be written at once. The heat of its friction, in J.
-fn row(
+/// A row; in an `extra` sweep it is over-relaxed by so much in all passes. Bodies that no lane of the block shares may be written at
+/// once. The heat of its friction, in J.
+pub(crate) fn row(
     pass: Pass,
     law: &Law,
     lines: &mut [Line],

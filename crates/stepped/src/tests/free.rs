@@ -161,7 +161,7 @@ fn momentum_and_angular_momentum_are_kept_within_a_sub_step() {
             let off = (linear - pushes).length() / size;
             assert!(off < 1e-12, "{off:e} of the momentum, seed {seed}");
             // What parts deep overlaps does not turn.
-            if engine.deep.least_gap() == 0.0 {
+            if engine.deep.least_gap == 0.0 {
                 asked += 1;
                 let off = (angular - turns).abs() / size;
                 assert!(off < 1e-12, "{off:e} of the angular momentum, seed {seed}");
@@ -187,7 +187,7 @@ fn what_is_stopped_keeps_its_angular_momentum_within_a_sub_step() {
             let (linear, angular) = motion_within(&engine, &swarm, &from);
             let off = (linear - pushes).length() / size;
             assert!(off < 1e-11, "{off:e} of the momentum, seed {seed}");
-            if engine.deep.least_gap() == 0.0 {
+            if engine.deep.least_gap == 0.0 {
                 let off = (angular - turns).abs() / size;
                 assert!(off < 1e-11, "{off:e} of the angular momentum, seed {seed}");
             }
