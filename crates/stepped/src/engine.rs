@@ -238,7 +238,7 @@ impl Engine {
         for line in (2..self.bodies.lines.len()).filter(|line| self.bodies.moved[*line]) {
             tell(self.bodies.slot_of[line], self.bodies.pieces_of_line(line));
         }
-        for &piece in self.broad.woken() {
+        for &piece in &self.broad.woken {
             tell(self.pieces.list[piece as usize].body, piece..piece + 1);
         }
     }

@@ -11,6 +11,7 @@ use carom_math::{Vec2, perp};
 use crate::bodies::{Bodies, number};
 use crate::pieces::Pieces;
 use crate::rows::{Arrival, Block, Colour, Graph, Law, REST};
+use crate::update::lanes;
 use crate::{BodyId, Engine};
 
 /// A run goes on for so many sub-steps at most: what is pressed on for longer lies there.
@@ -252,12 +253,9 @@ impl Run {
 /// Adds numbers of contacts that push and did not when this was last asked.
 fn begins(colour: &mut Colour, new: &mut Vec<u32>) {
     for (now, cold) in colour.pushes.iter().zip(&mut colour.cold) {
-        let mut begins = now & !cold.pushed;
+        let begins = now & !cold.pushed;
         cold.pushed = *now;
-        while begins != 0 {
-            new.push(cold.contact[begins.trailing_zeros() as usize]);
-            begins &= begins - 1;
-        }
+        new.extend(lanes(begins).map(|lane| cold.contact[lane]));
     }
 }
 

@@ -102,7 +102,8 @@ pub(crate) struct Piece {
     /// Index among the pieces of its body: part of the order in which contacts are created.
     pub(crate) ordinal: u32,
     shape: Arc<Shape>,
-    part: usize,
+    /// Which convex part of its shape.
+    pub(crate) part: usize,
     /// What the shape is grown by, in m.
     pub(crate) rounding: f64,
     pub(crate) material: Material,
@@ -361,11 +362,6 @@ impl Piece {
     /// The shape that it is, or is a part of.
     pub(crate) fn shape(&self) -> &Shape {
         &self.shape
-    }
-
-    /// Which convex part of its shape.
-    pub(crate) const fn part(&self) -> usize {
-        self.part
     }
 
     pub(crate) fn hull(&self) -> Hull<'_> {

@@ -237,7 +237,7 @@ impl Engine {
 
     /// See [`Self::news`].
     pub fn forget_news(&mut self) {
-        self.broad.forget_news();
+        self.broad.news.clear();
     }
 
     /// Names of all bodies, by slot.

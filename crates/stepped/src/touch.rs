@@ -1,7 +1,7 @@
 //! Which pieces touch: begins and ends, as a caller asks for them.
 
 use crate::Engine;
-use crate::rows::{Block, Cold};
+use crate::update::lanes;
 
 /// Two convex pieces began or ceased to touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -23,23 +23,15 @@ impl Engine {
         let pieces = &self.pieces;
         for colour in self.graph.awake() {
             for (block, cold) in colour.blocks.iter().zip(&mut colour.cold) {
-                let now = pushing(block, cold);
-                let mut changed = now ^ cold.touching;
+                // What is too deep for the sweeps touches as well: hard rows part it without impulses.
+                let now = (block.pushing() | cold.deep) & cold.used;
+                let changed = now ^ cold.touching;
                 cold.touching = now;
-                while changed != 0 {
-                    let lane = changed.trailing_zeros() as usize;
-                    changed &= changed - 1;
-                    found.push(Touch {
-                        tags: pieces.tags(cold.pieces[lane]),
-                        begins: now >> lane & 1 == 1,
-                    });
-                }
+                found.extend(lanes(changed).map(|lane| Touch {
+                    tags: pieces.tags(cold.pieces[lane]),
+                    begins: now >> lane & 1 == 1,
+                }));
             }
         }
     }
-}
-
-/// A bit for each lane that pushed in the last sub-step, or that is too deep for the sweeps: hard rows part it without impulses.
-fn pushing(block: &Block, cold: &Cold) -> u8 {
-    (block.pushing() | cold.deep()) & cold.used
 }

@@ -132,7 +132,7 @@ pub(crate) fn update(
         parted.extend(lanes(moved & !near).map(|lane| cold.contact[lane]));
     }
     bodies.start = start;
-    graph.add_deep(&mut deep);
+    graph.deep.append(&mut deep);
     least
 }
 
@@ -282,10 +282,7 @@ pub(crate) fn nearness(scene: &Scene<'_>, pair: [u32; 2]) -> Option<f64> {
 /// Two pieces in the order in which their bodies were inserted: a manifold depends on which one is A, and neither the numbers
 /// of pieces nor the search that found the pair may decide that.
 fn in_order(bodies: &Bodies, pieces: &Pieces, [a, b]: [u32; 2]) -> [u32; 2] {
-    let birth = |piece: u32| {
-        let slot = pieces.owners[piece as usize].body;
-        bodies.records[slot as usize].birth
-    };
+    let birth = |piece: u32| place(bodies, pieces, piece).0;
     if birth(a) < birth(b) { [a, b] } else { [b, a] }
 }
 
@@ -447,10 +444,9 @@ impl Pair {
     /// Two pieces of bodies that are awake or fixed, and that contacts move at least one of.
     fn new(bodies: &Bodies, pieces: &Pieces, pair: [u32; 2]) -> Option<Self> {
         let pair = in_order(bodies, pieces, pair);
-        let records = pair.map(|piece| {
-            let slot = pieces.owners[piece as usize].body;
-            &bodies.records[slot as usize]
-        });
+        let records = pieces
+            .bodies(pair)
+            .map(|slot| &bodies.records[slot as usize]);
         let lines = records.map(|record| record.line);
         let is_moved = records
             .iter()

@@ -28,9 +28,9 @@ pub(crate) struct Broad {
     /// Pieces that stand since the last tick: movers that rest have not met them.
     arrived: Vec<u32>,
     /// Pieces that woke since the last search, and perhaps sleep again: bodies at rest came near them while they slept.
-    woken: Vec<u32>,
+    pub(crate) woken: Vec<u32>,
     /// Movers that came or got other boxes since the last tick, and that a caller has not looked at.
-    news: Vec<u32>,
+    pub(crate) news: Vec<u32>,
     /// Pairs of pieces with overlapping boxes, one of which moved.
     pub(crate) found: Vec<[u32; 2]>,
     /// Pieces that a search is about: scratch.
@@ -97,11 +97,6 @@ impl Broad {
         !self.arrived.is_empty() || !self.woken.is_empty()
     }
 
-    /// Pieces that woke since the last search, and perhaps sleep again.
-    pub(crate) fn woken(&self) -> &[u32] {
-        &self.woken
-    }
-
     /// Queries are answered by the sweep, though many movers came since it was sorted.
     pub(crate) fn prepare_queries(&mut self, bodies: &Bodies, pieces: &Pieces, tick: f64) {
         if self.is_stale() {
@@ -158,7 +153,7 @@ impl Broad {
         self.with_boxes(pieces, lines.flat_map(|line| bodies.pieces_of_line(line)))
     }
 
-    /// Movers that came or got other boxes since the last tick, or since [`Self::forget_news`], and these.
+    /// Movers that came or got other boxes since the last tick, or since a caller looked at them, and these.
     pub(crate) fn news(&self, pieces: &Pieces) -> impl Iterator<Item = (u32, Aabb)> {
         self.with_boxes(pieces, self.news.iter().copied())
     }
@@ -171,9 +166,5 @@ impl Broad {
     ) -> impl Iterator<Item = (u32, Aabb)> {
         some.map(|piece| (piece, pieces.boxes[piece as usize]))
             .filter(|(piece, bounds)| self.moves_in(pieces, *piece, *bounds))
-    }
-
-    pub(crate) fn forget_news(&mut self) {
-        self.news.clear();
     }
 }

@@ -107,7 +107,7 @@ impl Engine {
     /// A shape is searched whole, from its first part on.
     fn first_parts(&self, pieces: &mut Vec<u32>) {
         for piece in &mut *pieces {
-            *piece -= number(self.pieces.list[*piece as usize].part());
+            *piece -= number(self.pieces.list[*piece as usize].part);
         }
         pieces.sort_unstable();
         pieces.dedup();
@@ -178,7 +178,7 @@ impl Engine {
         let mut first: Option<(f64, Option<Vec2>)> = None;
         for number in mine.pieces() {
             let piece_of_mine = &self.pieces.list[number as usize];
-            if piece_of_mine.part() != 0
+            if piece_of_mine.part != 0
                 || self.is_held([number, piece], body.slot)
                 || self.pieces.surface([number, piece], rules).is_none()
             {

@@ -8,7 +8,7 @@ use fearless_simd::Level;
 use super::hulls::overlaps_across_cuts;
 use super::{Eight, Found, Manifold, collide_any, collide_eight};
 use crate::Settings;
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, number};
 use crate::pieces::Pieces;
 use crate::rows::LANES;
 
@@ -103,11 +103,7 @@ impl Scene<'_> {
 
     /// The line of a piece's body; that of fixed ones if it sleeps.
     fn line_of(&self, piece: u32) -> u32 {
-        let slot = self.pieces.list[piece as usize].body;
-        match self.bodies.records[slot as usize].line {
-            Bodies::NONE => Bodies::GROUND,
-            line => line,
-        }
+        number(self.bodies.line_of(self.pieces.list[piece as usize].body))
     }
 
     /// What the bodies of two lines may close by unseen, in m: each may be a tolerance off its base pose, and go as far again.

@@ -86,9 +86,9 @@ pub(crate) struct Cold {
     /// A bit for each lane that an impact goes on in.
     pub(super) runs: u8,
     /// A bit for each lane that was too deep for the sweeps when it was last computed.
-    pub(super) deep: u8,
+    pub(crate) deep: u8,
     /// A bit for each of these that came so, and was not crushed.
-    pub(super) put: u8,
+    pub(crate) put: u8,
     /// A bit for each of these that rows did not press together, and that bear no load.
     pub(super) unloaded: u8,
     /// A bit for each lane with a row of whole shapes.
@@ -294,19 +294,9 @@ impl Cold {
         self.put >> lane & 1 == 1
     }
 
-    /// A bit for each lane that is.
-    pub(crate) const fn put(&self) -> u8 {
-        self.put
-    }
-
     /// Whether it is, rows did not press it together, and it bears no load.
     pub(crate) const fn is_unloaded(&self, lane: usize) -> bool {
         self.unloaded >> lane & 1 == 1
-    }
-
-    /// A bit for each lane that is.
-    pub(crate) const fn deep(&self) -> u8 {
-        self.deep
     }
 
     /// Notes how deep a contact is, if it is too deep for the sweeps, and whether that is so: if it was so or became so otherwise than

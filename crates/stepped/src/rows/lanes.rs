@@ -2,11 +2,12 @@
 
 use carom_math::{Vec2, perp};
 
-use super::block::{Block, Cold, LANES, OPEN};
+use super::block::{Block, Cold, OPEN};
 use super::colour::Colour;
 use super::graph::{ASLEEP, Graph, HARD};
 use crate::Surface;
 use crate::bodies::Bodies;
+use crate::update::lanes;
 
 impl Graph {
     /// The block and lane of a contact.
@@ -76,7 +77,7 @@ impl Graph {
 
     /// Slots of bodies that were put into each other and are not apart.
     pub(crate) fn put(&self) -> impl Iterator<Item = [u32; 2]> {
-        self.deep_with(Cold::put)
+        self.deep_with(|cold| cold.put)
     }
 
     /// Slots of the bodies of each deep contact that has a bit.
@@ -145,11 +146,6 @@ impl Graph {
     /// Whether there is such a contact, and it is too deep for the sweeps.
     pub(super) fn is_deep(&self, id: u32) -> bool {
         self.cold(id).is_some_and(|(cold, lane)| cold.is_deep(lane))
-    }
-
-    /// Notes contacts that became deep.
-    pub(crate) fn add_deep(&mut self, deep: &mut Vec<u32>) {
-        self.deep.append(deep);
     }
 
     /// Contacts of two bodies of very different mass that are awake.
@@ -228,8 +224,5 @@ impl Graph {
 
 fn ids_in(colours: &[Colour]) -> impl Iterator<Item = u32> {
     let cold = colours.iter().flat_map(|colour| &colour.cold);
-    cold.flat_map(|cold| {
-        let lanes = (0..LANES).filter(|lane| cold.used >> lane & 1 == 1);
-        lanes.map(|lane| cold.contact[lane])
-    })
+    cold.flat_map(|cold| lanes(cold.used).map(|lane| cold.contact[lane]))
 }
