@@ -15,6 +15,7 @@
 use carom_math::within;
 
 use super::body::ImpactBody;
+use super::dense::dot;
 use super::equations::Equations;
 use super::pivots::pivoted;
 use super::rows::{Bound, Rows};
@@ -232,7 +233,7 @@ impl<'a> Solver<'a> {
         let rows = self.rows;
         let change = |(r, start): (usize, &f64)| {
             let row = &rows.k[r * rows.len()..];
-            start + row.iter().zip(impulses).map(|(k, j)| k * j).sum::<f64>()
+            start + dot(row, impulses)
         };
         to.clear();
         to.extend(self.start.iter().enumerate().map(change));
@@ -250,9 +251,7 @@ impl<'a> Solver<'a> {
     fn dissipating(&mut self, impulses: &[f64]) -> f64 {
         let mut after = Vec::new();
         self.along(impulses, &mut after);
-        let power =
-            |speeds: &[f64]| -> f64 { impulses.iter().zip(speeds).map(|(j, u)| j * u).sum() };
-        dissipating(power(&self.start), power(&after))
+        dissipating(dot(impulses, &self.start), dot(impulses, &after))
     }
 
     /// Impulses near an answer, to rounding: what they leave is taken away until it is no smaller; `solved`: by the equations

@@ -10,6 +10,12 @@ pub struct Factored {
     order: Vec<usize>,
 }
 
+/// The sum of products, as far as both go.
+#[must_use]
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
 impl Factored {
     /// Of a square matrix given row by row; `None` if a pivot is 0 or not finite.
     pub fn of(size: usize, entries: impl Iterator<Item = f64>) -> Option<Self> {
@@ -86,17 +92,11 @@ impl Factored {
         x.extend(self.order.iter().map(|&row| right[row]));
         for k in 0..self.size {
             let row = &self.entries[k * self.size..];
-            let known: f64 = row.iter().zip(&x[..k]).map(|(l, x)| l * x).sum();
-            x[k] -= known;
+            x[k] -= dot(row, &x[..k]);
         }
         for k in (0..self.size).rev() {
             let row = &self.entries[k * self.size..(k + 1) * self.size];
-            let known: f64 = row[k + 1..]
-                .iter()
-                .zip(&x[k + 1..])
-                .map(|(u, x)| u * x)
-                .sum();
-            x[k] = (x[k] - known) / row[k];
+            x[k] = (x[k] - dot(&row[k + 1..], &x[k + 1..])) / row[k];
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::coulomb::Part;
 use super::rows::{Bound, Rows};
-use crate::dense::Factored;
+use crate::dense::{Factored, dot};
 
 /// The equations, and scratch of their solution.
 #[derive(Default)]
@@ -67,8 +67,7 @@ impl Equations {
         self.right.clear();
         self.right.extend(self.held.iter().map(|&r| {
             let row = &rows.k[r * rows.len()..];
-            let given: f64 = row.iter().zip(&*impulses).map(|(k, j)| k * j).sum();
-            -(start[r] + given)
+            -(start[r] + dot(row, impulses))
         }));
         self.push(rows, impulses);
     }

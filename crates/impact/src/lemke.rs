@@ -201,6 +201,7 @@ impl Tableau {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dense::dot;
     use proptest::prelude::*;
 
     #[test]
@@ -223,7 +224,6 @@ mod tests {
             force in prop::collection::vec(-1.0..1.0_f64, 5),
         ) {
             // M = R Rᵀ, singular if there are more rows than coordinates; q is within its reach.
-            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
             let m: Vec<f64> = rows.iter().flat_map(|a| rows.iter().map(|b| dot(a, b))).collect();
             let q: Vec<f64> = rows.iter().map(|row| dot(row, &force)).collect();
             // One of many is so nearly singular that rounding hides its last pivot.

@@ -10,6 +10,8 @@
 
 use core::ops::Range;
 
+use crate::dense::dot;
+
 /// A row counts as dependent on others if less than this part of its length is its own.
 const DEPENDENT: f64 = 1e-10;
 
@@ -382,10 +384,6 @@ fn span(row: &[f64]) -> Range<usize> {
     let first = row.iter().position(is_some).unwrap_or(0);
     let end = row.iter().rposition(is_some).map_or(0, |last| last + 1);
     first..end
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 fn add_scaled(to: &mut [f64], what: &[f64], factor: f64) {

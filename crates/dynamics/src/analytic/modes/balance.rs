@@ -10,8 +10,8 @@
 //! Trinkle 1996). Both friction forces of a face act along one line, so it has one.
 
 use super::NotMine;
-use super::faces::{Face, Faces, Row, dot};
-use crate::impact::dense::Factored;
+use super::faces::{Face, Faces, Row};
+use crate::impact::dense::{Factored, dot};
 use crate::impact::lemke::{Solution, complementary};
 
 /// Accelerations below this part of what they are the difference of are none.

@@ -10,6 +10,7 @@ use carom_math::{Vec2, cross, perp, vec2};
 use super::balance::Balance;
 use super::{BodyMove, CLOSED, NotMine, STILL, Touch};
 use crate::impact::ImpactBody;
+use crate::impact::dense::dot;
 use crate::impact::project::Basis;
 use crate::model::approach::relative;
 
@@ -330,8 +331,4 @@ fn between(bodies: &[ImpactBody], touch: &Touch, point: Vec2, speed: f64) -> (Ve
     let (a, b) = touch.bodies;
     let (velocity, scale) = relative((bodies[a], bodies[b]), point);
     (velocity, scale + speed)
-}
-
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

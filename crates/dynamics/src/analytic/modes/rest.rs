@@ -1,9 +1,10 @@
 //! Rest: what friction and support can hold stays where it is.
 
-use super::faces::{Faces, dot};
+use super::faces::Faces;
 use super::{BodyMove, GroupMove, STILL, Touch, TouchMove};
 use crate::ContactMode;
 use crate::impact::ImpactBody;
+use crate::impact::dense::dot;
 use crate::impact::project::balance;
 
 /// Unbalanced acceleration below which a group is held, as a part of the largest.
