@@ -18,13 +18,13 @@ impl World {
         Some(result)
     }
 
-    /// Sub-steps up to `end`.
-    pub(crate) fn advance_stepping(&mut self, end: SimTime, stop_at_event: bool) -> SimTime {
-        self.with_engine(|world, stepping| world.step_all(stepping, end, stop_at_event))
-            .unwrap_or(end)
-    }
-
-    fn step_all(&mut self, stepping: &mut Stepping, end: SimTime, stop_at_event: bool) -> SimTime {
+    /// Sub-steps up to `end`; when they stopped.
+    pub(crate) fn step_all(
+        &mut self,
+        stepping: &mut Stepping,
+        end: SimTime,
+        stop_at_event: bool,
+    ) -> SimTime {
         self.enter_within(stepping);
         if end > self.clock.now && self.clock.is_within(self.clock.now) {
             // What the engine did lasts to the end of its sub-step, and what came meanwhile knows of no contact before.
@@ -217,6 +217,10 @@ impl World {
 
     /// Asks anew how the contacts of a body meet, in the engine.
     pub(crate) fn resurface(&mut self, index: u32) {
-        self.with_engine(|world, stepping| stepping.resurface(index, world.rules()));
+        self.with_engine(|world, stepping| {
+            if let Some(id) = stepping.id(index) {
+                accepted(stepping.engine.resurface(id, &world.rules()));
+            }
+        });
     }
 }

@@ -51,7 +51,8 @@ impl World {
         // What the caller's changes brought about is told first.
         if !stop_at_event || !self.events.are_due() {
             let reached = if self.settings.mode == Mode::Stepped {
-                self.advance_stepping(end, stop_at_event)
+                self.with_engine(|world, stepping| world.step_all(stepping, end, stop_at_event))
+                    .unwrap_or(end)
             } else {
                 self.carry_members();
                 let time = self.advance(end, stop_at_event);

@@ -10,7 +10,7 @@ use carom_math::{Pose, SimTime, Vec2};
 
 use crate::events::free::FreeBodies;
 use crate::motion::flight::fly;
-use crate::stepping::is_blow;
+use crate::stepping::{accepted, is_blow};
 use crate::store::course::Course;
 use crate::store::pull::Pull;
 use crate::store::state::BodyState;
@@ -253,7 +253,7 @@ impl World {
             self.free = FreeBodies::under(self.bodies.pull.gravity);
         }
         if let Some(stepping) = &mut self.stepping {
-            stepping.set_gravity(self.bodies.pull.gravity);
+            accepted(stepping.engine.set_gravity(self.bodies.pull.gravity));
         }
         for index in all {
             if !self.bodies.get(index).in_engine() {

@@ -14,6 +14,7 @@ use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 use crate::store::pairs::Pairs;
+use crate::store::slots::number;
 use crate::store::state::{BodyState, Collider, Surface};
 use crate::values::profile::Stopwatch;
 use crate::work::Work;
@@ -374,12 +375,7 @@ impl World {
             at
         } else {
             self.bodies.colliders.push(collider);
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "fewer than 2^32 fit in memory"
-            )]
-            let at = (self.bodies.colliders.len() - 1) as u32;
-            at
+            number(self.bodies.colliders.len() - 1)
         }
     }
 

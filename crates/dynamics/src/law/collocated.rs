@@ -53,14 +53,14 @@ const STANDS: f64 = 1e-13;
 pub(crate) struct Collocated {
     start: SimTime,
     /// In s.
-    length: f64,
+    pub(super) length: f64,
     rotations: Vec<Rot>,
     /// What a coordinate counts for, in m: that of an angle the way at the body's reach, and 0 if the body does not move.
     scales: Vec<f64>,
     place: Vec<f64>,
     velocity: Vec<f64>,
-    /// Of all coordinates, in 1/s.
-    damping: f64,
+    /// Linear damping of all coordinates beside the law, in 1/s.
+    pub(super) damping: f64,
     /// b₀ … b₇ of each coordinate.
     pub(super) terms: Vec<[f64; 8]>,
     /// The same integrated once and twice: bₙ/(n + 1), and bₙ/((n + 1)(n + 2)). A path is evaluated far more often than made.
@@ -127,19 +127,6 @@ impl Collocated {
             terms: Vec::new(),
             integrals: Vec::new(),
         }
-    }
-
-    /// The same with linear damping, in 1/s, beside the law.
-    pub(super) fn damped(self, damping: f64) -> Self {
-        Self { damping, ..self }
-    }
-
-    pub(super) const fn damping(&self) -> f64 {
-        self.damping
-    }
-
-    pub(super) const fn set_length(&mut self, length: f64) {
-        self.length = length;
     }
 
     /// Rounds of fixed-point iteration from constant accelerations: what the path leaves out, in m; `None` where they do not

@@ -45,17 +45,18 @@ impl Stretch {
         };
         let mut first = Vec::new();
         law(&[start], &mut first);
-        let mut path = Collocated::new(SimTime::ZERO, longest, &[start], &[1.0]).damped(damping);
+        let mut path = Collocated::new(SimTime::ZERO, longest, &[start], &[1.0]);
+        path.damping = damping;
         let shortest = shortest.min(longest);
         loop {
-            let is_last = path.length() <= shortest;
-            let allowed = error * path.length();
+            let is_last = path.length <= shortest;
+            let allowed = error * path.length;
             let left_out = path.collocate(&mut law, &first, allowed);
             // Beyond a rim is another law: the stretch ends there, and what it has beyond bends it less each time.
             let crossings = rims.iter().filter_map(|rim| crosses(&path, rim));
-            let crossing = crossings.fold(path.length(), f64::min);
-            if !is_last && crossing < path.length() * (1.0 - AT) && crossing > shortest {
-                path.set_length(crossing);
+            let crossing = crossings.fold(path.length, f64::min);
+            if !is_last && crossing < path.length * (1.0 - AT) && crossing > shortest {
+                path.length = crossing;
                 continue;
             }
             // What is no number is not within any error.
@@ -63,18 +64,18 @@ impl Stretch {
             if !misses || is_last {
                 return Self { misses, path };
             }
-            path.set_length(shrunk(path.length(), left_out, allowed).max(shortest));
+            path.length = shrunk(path.length, left_out, allowed).max(shortest);
         }
     }
 
     /// In s.
     pub(crate) fn length(&self) -> f64 {
-        self.path.length()
+        self.path.length
     }
 
     /// Linear damping, in 1/s.
     pub(crate) const fn damping(&self) -> f64 {
-        self.path.damping()
+        self.path.damping
     }
 
     /// Place in m and velocity in m/s after `t` seconds, 0 ≤ t ≤ `length`.
@@ -100,7 +101,7 @@ impl Stretch {
 
 /// When a path first crosses a rim between two nodes, in s.
 fn crosses(path: &Collocated, &(centre, radius): &Rim) -> Option<f64> {
-    let outside = |tau: f64| (path.body_after(0, tau * path.length()).0 - centre).length() > radius;
+    let outside = |tau: f64| (path.body_after(0, tau * path.length).0 - centre).length() > radius;
     let started = outside(NODES[1]);
     let after = NODES[2..].iter().chain(&[1.0]).copied();
     let (mut low, mut high) = NODES[1..]
@@ -116,7 +117,7 @@ fn crosses(path: &Collocated, &(centre, radius): &Rim) -> Option<f64> {
             high = middle;
         }
     }
-    Some(high * path.length())
+    Some(high * path.length)
 }
 
 #[cfg(test)]

@@ -93,10 +93,6 @@ impl Stepping {
         }))
     }
 
-    pub(crate) fn set_gravity(&mut self, gravity: carom_math::Vec2) {
-        accepted(self.engine.set_gravity(gravity));
-    }
-
     /// Takes over what may change of a world's settings, but for gravity.
     pub(crate) fn set_settings(&mut self, old: &Settings, new: &Settings) {
         if old.contact != new.contact {

@@ -2,7 +2,6 @@
 
 use carom_stepped::{Material, PairRules, Surface};
 
-use super::{Stepping, accepted};
 use crate::PairSearch;
 use crate::broad::tree::Broad;
 use crate::store::bodies::Bodies;
@@ -12,15 +11,6 @@ use crate::store::bodies::Bodies;
 pub(crate) struct Rules<'a> {
     pub(crate) bodies: &'a Bodies,
     pub(crate) broad: &'a Broad,
-}
-
-impl Stepping {
-    /// Asks anew how the contacts of a body meet.
-    pub(crate) fn resurface(&mut self, index: u32, rules: Rules<'_>) {
-        if let Some(id) = self.id(index) {
-            accepted(self.engine.resurface(id, &rules));
-        }
-    }
 }
 
 impl PairRules for Rules<'_> {

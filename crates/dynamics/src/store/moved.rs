@@ -2,7 +2,7 @@
 
 use carom_math::Vec2;
 
-use super::slots::grown;
+use super::slots::{grown, number};
 use super::state::BodyState;
 
 /// No place in the list.
@@ -55,12 +55,7 @@ impl Moved {
 
     fn enter(&mut self, index: u32) {
         if self.place[index as usize] == NONE {
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "no more than there are bodies"
-            )]
-            let end = self.moving.len() as u32;
-            self.place[index as usize] = end;
+            self.place[index as usize] = number(self.moving.len());
             self.moving.push(index);
         }
     }

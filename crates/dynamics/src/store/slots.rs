@@ -25,16 +25,20 @@ pub(crate) fn grown<T: Clone>(list: &mut Vec<T>, place: u32, fill: T) -> &mut T 
     &mut list[at]
 }
 
+/// The number of a place in a list.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "fewer than 2^32 fit in memory"
+)]
+pub(crate) const fn number(at: usize) -> u32 {
+    at as u32
+}
+
 impl<T> Slots<T> {
     pub(crate) fn insert(&mut self, value: T) -> u32 {
         let place = self.free.pop().unwrap_or_else(|| {
             self.list.push(None);
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "fewer than 2^32 fit in memory"
-            )]
-            let place = (self.list.len() - 1) as u32;
-            place
+            number(self.list.len() - 1)
         });
         self.list[place as usize] = Some(value);
         place

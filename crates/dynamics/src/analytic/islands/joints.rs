@@ -23,11 +23,6 @@ impl Held<'_> {
         self.hull.normals.is_empty()
     }
 
-    /// The edge that lies along a contact; the normal `outward` points out of the part.
-    fn flush_edge(&self, outward: Vec2) -> Option<usize> {
-        flush_edge(&self.hull, self.pose, outward)
-    }
-
     /// The vertex next to a point, and how far it is, in m.
     fn vertex_near(&self, point: Vec2) -> Option<(usize, f64)> {
         let local = self.pose.inverse_point(point);
@@ -98,7 +93,7 @@ fn goes_over(
 fn disc_on(own: &Held<'_>, disc: &Held<'_>, owner: End, outward: Vec2, near: f64) -> Option<Joint> {
     let (tip, radius) = (disc.hull.vertices[0], disc.hull.radius);
     let centre = disc.pose.point(tip);
-    if let Some(edge) = own.flush_edge(outward) {
+    if let Some(edge) = flush_edge(&own.hull, own.pose, outward) {
         let (normal, height, ends) = own.edge_line(edge);
         let room = near * FLUSH + disc_room(radius, own.pose, disc.pose);
         if !goes_over((own, disc), (normal, ends), centre, room) {
@@ -136,7 +131,7 @@ fn corner_on(
     points: usize,
     near: f64,
 ) -> Option<(Joint, bool)> {
-    let edge = own.flush_edge(outward)?;
+    let edge = flush_edge(&own.hull, own.pose, outward)?;
     let (vertex, far) = other.vertex_near(point)?;
     if far > near {
         return None;

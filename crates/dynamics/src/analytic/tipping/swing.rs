@@ -275,19 +275,18 @@ impl<'a> Pivot<'a> {
                 contact,
                 normal,
                 at,
-            } => Limit::Corner {
-                contact,
-                normal: if margin.edge_turns {
-                    turn * normal
+            } => {
+                let (normal, at) = if margin.edge_turns {
+                    (turn * normal, at)
                 } else {
-                    normal
-                },
-                at: if margin.edge_turns {
-                    at
-                } else {
-                    self.at + turn * (at - self.at)
-                },
-            },
+                    (normal, self.at + turn * (at - self.at))
+                };
+                Limit::Corner {
+                    contact,
+                    normal,
+                    at,
+                }
+            }
             other => other,
         }
     }
