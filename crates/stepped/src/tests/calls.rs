@@ -3,20 +3,11 @@
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Segment};
 use carom_math::{Pose, Rot, Vec2, vec2};
 
-use super::{floor, pyramid, unit_box};
+use super::{floor, pyramid, unit_box, weightless, without_sleep};
 use crate::{
     BodyInput, Engine, EngineError, Material, Mixed, PairRules, PieceInput, Settings, Surface,
     Touch,
 };
-
-fn weightless() -> Engine {
-    let settings = Settings {
-        gravity: Vec2::ZERO,
-        sleep: None,
-        ..Settings::default()
-    };
-    Engine::new(settings).unwrap()
-}
 
 fn disc(radius: f64, restitution: f64) -> PieceInput {
     let material = Material {
@@ -160,7 +151,7 @@ fn what_was_inserted_asleep_wakes_with_what_it_touches() {
 #[test]
 fn what_is_struck_within_a_sub_step_passes_through_nothing() {
     for speed in [60.0, 365.0, 3e3] {
-        let mut engine = weightless();
+        let mut engine = Engine::new(weightless()).unwrap();
         let wall = PieceInput::new(ConvexPolygon::rectangle(0.01, 4.0).unwrap());
         engine.insert(BodyInput::fixed(), &[wall]).unwrap();
         let still = BodyInput::dynamic(1.0, 1e-4).at(vec2(-0.1, 0.0));
@@ -181,7 +172,7 @@ fn what_is_struck_within_a_sub_step_passes_through_nothing() {
 /// A caller that sets a body moving in the middle of a sub-step carries it from there.
 #[test]
 fn what_is_carried_stops_at_what_is_in_its_way() {
-    let mut engine = weightless();
+    let mut engine = Engine::new(weightless()).unwrap();
     let wall = PieceInput::new(ConvexPolygon::rectangle(0.01, 4.0).unwrap());
     engine.insert(BodyInput::fixed(), &[wall]).unwrap();
     let ball = BodyInput::dynamic(1.0, 1e-4).at(vec2(0.5, 0.0));
@@ -196,7 +187,7 @@ fn what_is_carried_stops_at_what_is_in_its_way() {
 #[test]
 fn what_is_carried_into_what_it_touches_stays_where_it_is() {
     for deep in [0.0, 1e-6, 1e-5, 1e-4, 1e-3] {
-        let mut engine = weightless();
+        let mut engine = Engine::new(weightless()).unwrap();
         let wall = PieceInput::new(ConvexPolygon::rectangle(0.01, 4.0).unwrap());
         engine.insert(BodyInput::fixed(), &[wall]).unwrap();
         let ball = BodyInput::dynamic(1.0, 1e-4).at(vec2(0.5, 0.3));
@@ -212,7 +203,7 @@ fn what_is_carried_into_what_it_touches_stays_where_it_is() {
 /// A plate of 1 mm by 0.2 m that went by 2.4 mm went by less than an eighth of its extent, which is an eighth of its length.
 #[test]
 fn what_is_carried_by_more_than_it_is_thick_stops_too() {
-    let mut engine = weightless();
+    let mut engine = Engine::new(weightless()).unwrap();
     let wall = PieceInput::new(Segment::new(vec2(-1.0, 0.0), vec2(1.0, 0.0)).unwrap());
     engine.insert(BodyInput::fixed(), &[wall]).unwrap();
     let plate = PieceInput::new(ConvexPolygon::rectangle(0.2, 1e-3).unwrap());
@@ -248,11 +239,7 @@ fn a_heavy_load_comes_to_rest_on_a_light_box() {
 #[test]
 fn a_spinning_elastic_box_gains_nothing_from_friction() {
     for k in 0..20 {
-        let mut engine = Engine::new(Settings {
-            sleep: None,
-            ..Settings::default()
-        })
-        .unwrap();
+        let mut engine = Engine::new(without_sleep()).unwrap();
         floor(&mut engine);
         let material = Material {
             friction: 1.2,
@@ -282,7 +269,7 @@ fn a_spinning_elastic_box_gains_nothing_from_friction() {
 /// A motion of the sub-step before was searched once more when a caller carried another body, though its own had been taken out.
 #[test]
 fn a_motion_is_searched_once() {
-    let mut engine = weightless();
+    let mut engine = Engine::new(weightless()).unwrap();
     floor(&mut engine);
     let fast = BodyInput::dynamic(1.0, 1e-4).at(vec2(0.0, 1.0));
     let fast = fast.moving(vec2(0.0, -300.0), 0.0);
@@ -299,7 +286,7 @@ fn a_motion_is_searched_once() {
 #[test]
 fn a_motion_that_rows_do_not_know_meets_one_that_they_do() {
     for struck_first in [true, false] {
-        let mut engine = weightless();
+        let mut engine = Engine::new(weightless()).unwrap();
         let mut insert = |at: Vec2, velocity: Vec2| {
             let input = BodyInput::dynamic(1.0, 1e-3).at(at).moving(velocity, 0.0);
             engine.insert(input, &[disc(0.1, 0.0)]).unwrap()
@@ -392,7 +379,7 @@ fn prepared_queries_find_what_others_find() {
 /// Before, a body that went elsewhere than was foreseen was compared with the boxes that others had at the tick.
 #[test]
 fn bodies_that_turn_to_each_other_in_different_sub_steps_of_a_tick_meet() {
-    let mut engine = weightless();
+    let mut engine = Engine::new(weightless()).unwrap();
     let mut insert = |at: Vec2| {
         let input = BodyInput::dynamic(1.0, 1.0 / 6.0).at(at);
         engine.insert(input, &[unit_box()]).unwrap()
@@ -421,7 +408,7 @@ fn bodies_that_turn_to_each_other_in_different_sub_steps_of_a_tick_meet() {
 /// Such a body was taken, and a tick did not end where a piece of it has more than twelve corners.
 #[test]
 fn a_pose_that_is_turned_by_no_number_is_refused() {
-    let mut engine = weightless();
+    let mut engine = Engine::new(weightless()).unwrap();
     let pose = Pose::new(Vec2::ZERO, Rot::from_angle(f64::NAN));
     let mut body = BodyInput::dynamic(1.0, 1.0);
     let id = engine.insert(body, &[unit_box()]).unwrap();

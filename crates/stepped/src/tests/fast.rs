@@ -3,8 +3,8 @@
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane};
 use carom_math::{Rot, Vec2, vec2};
 
-use super::Random;
-use super::hard::{at, without_sleep};
+use super::hard::at;
+use super::{Random, without_sleep};
 use crate::narrow::collide_any;
 use crate::{BodyInput, BodyKind, Engine, Material, Mixed, PieceInput, Settings};
 

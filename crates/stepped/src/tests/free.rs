@@ -3,8 +3,7 @@
 use carom_geometry::{Circle, ConvexPolygon, Shape};
 use carom_math::{Pose, Vec2, vec2};
 
-use super::hard::without_sleep;
-use super::{Random, levels};
+use super::{Random, levels, without_sleep};
 use crate::rows::FreePairs;
 use crate::{BodyId, BodyInput, Engine, Material, Mixed, PieceInput, Settings};
 

@@ -3,7 +3,7 @@
 use carom_geometry::ConvexPolygon;
 use carom_math::{Pose, Rot, Vec2, perp, vec2};
 
-use super::{Random, floor, levels, pyramid, unit_box};
+use super::{Random, floor, levels, pyramid, unit_box, without_sleep};
 use crate::{
     BodyId, BodyInput, BodyKind, Engine, Material, Mixed, PairRules, PieceInput, Settings, Surface,
 };
@@ -28,13 +28,6 @@ pub(super) fn column(settings: Settings, light: u32, load: f64) -> (Engine, Vec<
     floor(&mut engine);
     let ids = stack(&mut engine, 0.0, light, load);
     (engine, ids)
-}
-
-pub(super) fn without_sleep() -> Settings {
-    Settings {
-        sleep: None,
-        ..Settings::default()
-    }
 }
 
 pub(super) fn at(engine: &Engine, id: BodyId) -> Vec2 {

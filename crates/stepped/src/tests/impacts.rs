@@ -3,7 +3,7 @@
 use carom_geometry::{Circle, ConvexPolygon};
 use carom_math::{Vec2, vec2};
 
-use super::{floor, pyramid, weightless};
+use super::{floor, pyramid, weightless, without_sleep};
 use crate::{BodyInput, Engine, Impact, Material, Mixed, PieceInput, Settings};
 
 /// Impacts of so many ticks, and when each surface was met, in s.
@@ -41,11 +41,7 @@ fn a_landing_is_told_with_its_speed_and_impulse() {
                 if e > 0.0 && e * e * height < 0.005 {
                     continue;
                 }
-                let settings = Settings {
-                    sleep: None,
-                    ..Settings::default()
-                };
-                let mut engine = Engine::new(settings).unwrap();
+                let mut engine = Engine::new(without_sleep()).unwrap();
                 floor(&mut engine);
                 let body = BodyInput::dynamic(2.0, 0.2).at(vec2(0.3, 0.5 + height));
                 let piece = shape.clone().with_material(surface(e, 0.5));
@@ -68,7 +64,7 @@ fn a_landing_is_told_with_its_speed_and_impulse() {
                         .all(|(_, other)| other.speed < 0.01 * speed),
                     "{what}"
                 );
-                let h = settings.tick / f64::from(settings.substeps);
+                let h = engine.settings().substep();
                 assert!((impact.speed - speed).abs() < g * h, "{what}");
                 assert!((when - time).abs() < h, "{what}");
                 // It turns back up to a sub-step's way above the floor, with the energy that it has there.
@@ -90,11 +86,7 @@ fn a_landing_is_told_with_its_speed_and_impulse() {
 
 #[test]
 fn what_rests_tells_of_no_impact() {
-    let mut engine = Engine::new(Settings {
-        sleep: None,
-        ..Settings::default()
-    })
-    .unwrap();
+    let mut engine = Engine::new(without_sleep()).unwrap();
     floor(&mut engine);
     pyramid(&mut engine, 10, Vec2::ZERO);
     assert_eq!(impacts(&mut engine, 300), []);

@@ -3,7 +3,7 @@
 use carom_geometry::ConvexPolygon;
 use carom_math::{Pose, Rot, Vec2, cross, vec2};
 
-use super::{Random, floor, pyramid, unit_box, weightless, with_friction};
+use super::{Random, floor, pyramid, unit_box, weightless, with_friction, without_sleep};
 use crate::{BodyId, BodyInput, Engine, EngineError, PieceInput, Settings};
 
 fn cloud(settings: Settings, seed: u64, count: usize, spread: f64) -> (Engine, Vec<BodyId>) {
@@ -103,11 +103,7 @@ fn a_bounce_turns_both_bodies_about_one_point() {
 #[test]
 fn energy_does_not_rise_without_restitution() {
     for seed in 0..4 {
-        let settings = Settings {
-            sleep: None,
-            ..Settings::default()
-        };
-        let mut engine = Engine::new(settings).unwrap();
+        let mut engine = Engine::new(without_sleep()).unwrap();
         floor(&mut engine);
         let mut random = Random::new(seed);
         for k in 0..50 {
@@ -151,11 +147,7 @@ fn friction_stays_in_its_cone() {
 #[test]
 fn warm_start_is_kept_by_every_change() {
     for seed in 0..8u32 {
-        let settings = Settings {
-            sleep: None,
-            ..Settings::default()
-        };
-        let mut engine = Engine::new(settings).unwrap();
+        let mut engine = Engine::new(without_sleep()).unwrap();
         let ground = floor(&mut engine);
         let mut random = Random::new(u64::from(100 + seed));
         let mut ids = Vec::new();
@@ -266,11 +258,7 @@ fn friction_is_that_of_coulomb() {
     let angle = 0.4;
     let rot = Rot::from_angle(angle);
     for friction in [0.0, 0.2, 0.35, 0.6] {
-        let mut engine = Engine::new(Settings {
-            sleep: None,
-            ..Settings::default()
-        })
-        .unwrap();
+        let mut engine = Engine::new(without_sleep()).unwrap();
         let slope = PieceInput::new(ConvexPolygon::rectangle(200.0, 2.0).unwrap());
         let mut fixed = BodyInput::fixed().at(rot * vec2(0.0, -1.0));
         fixed.pose.rotation = rot;

@@ -100,12 +100,18 @@ impl Random {
     }
 }
 
+pub(super) fn without_sleep() -> Settings {
+    Settings {
+        sleep: None,
+        ..Settings::default()
+    }
+}
+
 /// No gravity, and no sleep.
 pub(super) fn weightless() -> Settings {
     Settings {
         gravity: Vec2::ZERO,
-        sleep: None,
-        ..Settings::default()
+        ..without_sleep()
     }
 }
 

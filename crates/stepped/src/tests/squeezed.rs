@@ -3,8 +3,8 @@
 use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Shape};
 use carom_math::{Vec2, vec2};
 
-use super::hard::{MUST_STAY, at, column, off, put, without_sleep};
-use super::{Random, floor, unit_box};
+use super::hard::{MUST_STAY, at, column, off, put};
+use super::{Random, floor, unit_box, without_sleep};
 use crate::narrow::collide_any;
 use crate::{BodyId, BodyInput, BodyKind, Engine, Material, Mixed, PieceInput};
 

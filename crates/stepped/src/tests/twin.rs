@@ -2,18 +2,14 @@
 
 use carom_math::{Pose, Rot, Vec2, vec2};
 
-use super::{Random, floor, pyramid, unit_box};
+use super::{Random, floor, pyramid, unit_box, without_sleep};
 use crate::naive;
-use crate::{BodyInput, Engine, Mixed, Settings};
+use crate::{BodyInput, Engine, Mixed};
 
 /// A heap in touch: velocities and impulses after a tick are those of rows in a list, swept in the same order.
 #[test]
 fn a_tick_agrees_with_its_slow_twin() {
-    let settings = Settings {
-        sleep: None,
-        ..Settings::default()
-    };
-    let mut engine = Engine::new(settings).unwrap();
+    let mut engine = Engine::new(without_sleep()).unwrap();
     floor(&mut engine);
     let mut ids = pyramid(&mut engine, 6, Vec2::ZERO);
     // Gaps of exactly 0 would be open or closed by rounding.
