@@ -2,7 +2,7 @@
 
 use carom_math::{Pose, Vec2};
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, number};
 use crate::error::{finite, finite_pose};
 use crate::rows::{Law, Quad};
 use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings, Sleep, Softness};
@@ -146,12 +146,10 @@ impl Engine {
             gravity,
             ..self.settings
         })?;
-        for slot in 0..self.bodies.records.len() {
-            let record = self.bodies.records[slot];
-            if record.live && !matches!(record.line, Bodies::NONE | Bodies::GROUND) {
-                let pull = Quad::new(gravity * record.gravity_scale, 0.0);
-                self.bodies.set_pull(record.line, pull);
-            }
+        for at in 2..self.bodies.lines.len() {
+            let record = &self.bodies.records[self.bodies.slot_of[at] as usize];
+            let pull = Quad::new(gravity * record.gravity_scale, 0.0);
+            self.bodies.set_pull(number(at), pull);
         }
         Ok(())
     }

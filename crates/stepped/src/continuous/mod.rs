@@ -326,7 +326,7 @@ impl Engine {
     /// The motion that brings a body to its pose within `left` seconds: from a displacement, or at its velocity.
     fn motion(&self, slot: u32, from: Option<(Vec2, f64)>, left: f64) -> Motion {
         let at = self.bodies.line_of(slot);
-        if self.bodies.records[slot as usize].line == Bodies::NONE || at < 2 {
+        if at < 2 {
             let pose = self.bodies.pose_of(slot);
             return Motion {
                 rotation: pose.rotation,

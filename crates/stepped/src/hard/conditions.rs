@@ -5,7 +5,7 @@ use carom_math::Vec2;
 
 use super::solve::Island;
 use crate::bodies::Bodies;
-use crate::rows::{Graph, Law};
+use crate::rows::{Graph, Law, quotient};
 
 /// Speed that counts as 0, as a part of the fastest along a row before contacts act: ten times what a solve leaves at most, so that
 /// at rest there is one solve.
@@ -26,7 +26,8 @@ pub(super) fn rest(island: &Island, law: &Law, graph: &Graph) -> f64 {
     let mut fastest = 0.0_f64;
     for contact in &island.contacts {
         let (block, _, lane) = graph.lane(contact.id);
-        let [a, b] = island.free(contact).map(|body| (body.velocity, body.spin));
+        let free = contact.ends.map(|end| &island.bodies[end]);
+        let [a, b] = free.map(|body| (body.velocity, body.spin));
         let opens = block.along(lane, a, b);
         for (opens, gap) in opens.iter().zip(contact.gaps).take(contact.points) {
             fastest = fastest.max((opens - island.closes(law, gap)).abs());
@@ -146,10 +147,6 @@ pub(super) fn centre(bodies: &Bodies, line: u32) -> Vec2 {
 
 /// Twice the kinetic energy of a body, as a part of its mass, in m²/s².
 pub(super) fn square(body: &ImpactBody, velocity: Vec2, spin: f64) -> f64 {
-    let turns = if body.inverse_inertia > 0.0 {
-        body.inverse_mass / body.inverse_inertia * spin * spin
-    } else {
-        0.0
-    };
-    velocity.length_squared() + turns
+    let turning = quotient(body.inverse_mass, body.inverse_inertia);
+    velocity.length_squared() + turning * spin * spin
 }

@@ -10,7 +10,7 @@ use carom_math::Vec2;
 
 use super::solve::Island;
 use crate::bodies::Bodies;
-use crate::rows::{Graph, Law, Quad};
+use crate::rows::{Graph, Law, Quad, quotient};
 
 impl Island {
     /// Kinetic energy as the sub-step begins, in J. `None` where drivers or belts may add to it, or what lies too deep for sweeps is to be
@@ -86,13 +86,6 @@ fn moving(body: &ImpactBody, (velocity, spin): (Vec2, f64)) -> ImpactBody {
 pub(super) fn work(bodies: &Bodies, line: u32, way: Vec2, turn: f64) -> f64 {
     let at = line as usize;
     let (body, pull) = (&bodies.lines[at], &bodies.pull[at]);
-    if body.inverse_mass() <= 0.0 {
-        return 0.0;
-    }
-    let turns = if body.inverse_inertia() > 0.0 {
-        pull.w() * turn / body.inverse_inertia()
-    } else {
-        0.0
-    };
-    pull.v().dot(way) / body.inverse_mass() + turns
+    let straight = quotient(pull.v().dot(way), body.inverse_mass());
+    straight + quotient(pull.w() * turn, body.inverse_inertia())
 }

@@ -129,11 +129,6 @@ impl Island {
         lines.filter(|(_, body)| body.inverse_mass > 0.0)
     }
 
-    /// Velocities before contacts act.
-    pub(super) fn free(&self, contact: &HardContact) -> [&ImpactBody; 2] {
-        contact.ends.map(|end| &self.bodies[end])
-    }
-
     /// Gives bodies and rows what holds all contacts; false if nothing was found that does: then rows have no impulses.
     pub(super) fn solve(&mut self, law: &Law, bodies: &mut Bodies, graph: &mut Graph) -> bool {
         self.push(bodies, graph);

@@ -39,7 +39,7 @@ pub(crate) use graph::{Graph, HARD, Touched};
 pub(crate) use integrate::{correct, displace, velocity_before, warm_start};
 pub(crate) use kernel::{Pass, sweep};
 pub(crate) use law::Law;
-pub(crate) use line::{Line, Quad};
+pub(crate) use line::{Line, Quad, quotient};
 pub(crate) use renew::renew;
 pub(crate) use restitution::{Arrival, REST, arrivals, bounce};
 pub(crate) use rotating::{RotatingRows, Side};

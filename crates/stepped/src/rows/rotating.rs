@@ -147,15 +147,10 @@ impl Seen {
         // Arms end on the surfaces, in the smaller gap, or midway in an overlap.
         let [gap, second] = self.gaps;
         let nearest = gap.min(second);
-        let (of_face, of_corner, outwards) = if side.of_b {
-            (b.1, a.1, 1.0)
+        let ((own, of_face), (other, of_corner), outwards) = if side.of_b {
+            ((self.b, b.1), (self.a, a.1), 1.0)
         } else {
-            (a.1, b.1, -1.0)
-        };
-        let (own, other) = if side.of_b {
-            (self.b, self.a)
-        } else {
-            (self.a, self.b)
+            ((self.a, a.1), (self.b, b.1), -1.0)
         };
         let overlap = 0.5 * nearest.min(0.0);
         let face = own.x + outwards * overlap;
