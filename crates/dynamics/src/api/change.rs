@@ -265,13 +265,6 @@ impl World {
         }
     }
 
-    pub(crate) fn part_all(&mut self, index: u32) {
-        self.wake_around(index, self.clock.now);
-        for place in self.bodies.get(index).pairs.clone() {
-            self.part(place, self.clock.now);
-        }
-    }
-
     /// A caller's change of a body: its energy counts as brought in from outside, sleepers that
     /// touch it wake, and what was predicted for it is predicted anew.
     pub(crate) fn disturb(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {

@@ -229,8 +229,12 @@ impl World {
 
     /// Takes a body out of the engine and all its pairs.
     fn leave_all(&mut self, index: u32) {
-        self.leave(index, self.clock.now);
-        self.part_all(index);
+        let now = self.clock.now;
+        self.leave(index, now);
+        self.wake_around(index, now);
+        for place in self.bodies.get(index).pairs.clone() {
+            self.part(place, now);
+        }
     }
 
     /// Place of a body's shape among all shapes.

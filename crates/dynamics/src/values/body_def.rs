@@ -270,20 +270,16 @@ impl BodyDef {
         self
     }
 
-    const fn dampings(&self) -> [(&'static str, f64); 2] {
-        [
-            ("linear_damping", self.linear_damping),
-            ("angular_damping", self.angular_damping),
-        ]
-    }
-
     pub(crate) fn check(&self) -> Result<(), BodyError> {
         check_vec2("position.x", "position.y", self.position)?;
         check_finite("angle", self.angle)?;
         check_vec2("velocity.x", "velocity.y", self.velocity)?;
         check_finite("spin", self.spin)?;
         check_finite("gravity_scale", self.gravity_scale)?;
-        for (field, value) in self.dampings() {
+        for (field, value) in [
+            ("linear_damping", self.linear_damping),
+            ("angular_damping", self.angular_damping),
+        ] {
             check_finite(field, value)?;
             if value < 0.0 {
                 return Err(BodyError::Negative { field, value });
