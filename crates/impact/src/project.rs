@@ -67,6 +67,7 @@ pub fn balance(rows: &[Vec<f64>], load: &[f64], tolerance: f64) -> (Vec<f64>, f6
 }
 
 /// The rows that hold with equality, their multipliers and the point that they lead to.
+#[derive(Default)]
 struct ActiveSet<'a> {
     kept: &'a [Vec<f64>],
     rows: &'a [Vec<f64>],
@@ -96,13 +97,9 @@ impl<'a> ActiveSet<'a> {
             rows,
             spans: rows.iter().map(|row| span(row)).collect(),
             bounds,
-            members: Vec::new(),
-            basis: Basis::new(),
-            multipliers: Vec::new(),
             start,
             point: start.to_vec(),
-            hopeless: Vec::new(),
-            operations: 0,
+            ..Self::default()
         }
     }
 
@@ -265,7 +262,7 @@ impl<'a> ActiveSet<'a> {
 }
 
 /// Rows as Q R: orthonormal directions, and how each row is made of them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Basis {
     directions: Vec<Vec<f64>>,
     /// Where each direction is not 0.
@@ -275,14 +272,6 @@ pub struct Basis {
 }
 
 impl Basis {
-    const fn new() -> Self {
-        Self {
-            directions: Vec::new(),
-            spans: Vec::new(),
-            columns: Vec::new(),
-        }
-    }
-
     /// One more direction: what is a row's own beside its parts along the others.
     fn add(&mut self, mut column: Vec<f64>, mut own: Vec<f64>) {
         let length = dot(&own, &own).sqrt();
@@ -295,7 +284,7 @@ impl Basis {
 
     /// Of rows that may depend on each other those that add a direction, in their order.
     pub fn independent(rows: impl IntoIterator<Item = Vec<f64>>, dependent: f64) -> Self {
-        let mut basis = Self::new();
+        let mut basis = Self::default();
         for mut row in rows {
             let whole = dot(&row, &row).sqrt();
             let column = basis.reduce(&mut row);
