@@ -17,7 +17,7 @@ pub(crate) const fn number(at: usize) -> u32 {
 }
 
 /// All bodies. The lists by line hold awake bodies only.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Bodies {
     pub(crate) records: Vec<Record>,
     free: Vec<u32>,
@@ -72,10 +72,6 @@ impl Bodies {
             extent: f64::INFINITY,
         };
         Self {
-            records: Vec::new(),
-            free: Vec::new(),
-            births: 0,
-            updates: 0,
             lines: vec![Line::EMPTY, Line::GROUND],
             start: vec![Quad([0.0, 0.0, 0.0, 1.0]), Quad::default()],
             pull: vec![Quad::default(); 2],
@@ -87,13 +83,8 @@ impl Bodies {
             rest: vec![0.0; 2],
             foreseen: vec![Quad::default(); 2],
             drag: vec![UNDAMPED; 2],
-            damped: 0,
             free_lines: vec![false; 2],
-            free_count: 0,
-            deviating: Vec::new(),
-            may_deviate: false,
-            speedy: None,
-            beyond_boxes: 0.0,
+            ..Self::default()
         }
     }
 

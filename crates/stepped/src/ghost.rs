@@ -100,6 +100,7 @@ impl Suspects {
 }
 
 /// Rows as a body sees them, and what it takes to find those that may be hidden.
+#[derive(Default)]
 #[repr(C, align(64))]
 struct Rows {
     /// Unit normals from the pieces to the body.
@@ -127,7 +128,7 @@ pub(crate) fn hide(
     known: &Pairs,
 ) {
     let mut ids = Vec::new();
-    let mut rows = Rows::NONE;
+    let mut rows = Rows::default();
     let mut ghosts = Vec::new();
     let suspects = graph.suspects.contacts();
     for asked in suspects.chunk_by(|a, b| a.0 == b.0) {
@@ -234,20 +235,6 @@ const fn has_sides(piece: Turned<'_>) -> bool {
 }
 
 impl Rows {
-    const NONE: Self = Self {
-        nx: [0.0; MOST],
-        ny: [0.0; MOST],
-        x1: [0.0; MOST],
-        y1: [0.0; MOST],
-        x2: [0.0; MOST],
-        y2: [0.0; MOST],
-        flush: [0.0; MOST],
-        slope: [0.0; MOST],
-        pieces: [0; MOST],
-        contacts: [0; MOST],
-        len: 0,
-    };
-
     /// The rows of the body that has the pieces `its`.
     fn fill(&mut self, graph: &Graph, pieces: &Pieces, ids: &[u32], its: &Range<u32>) {
         self.len = ids.len();

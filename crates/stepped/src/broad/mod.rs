@@ -16,7 +16,7 @@ pub(crate) use pairs::Pairs;
 use sweep::Sweep;
 
 /// Movers in a sweep, what stands in a tree, half-planes in a list.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Broad {
     /// Fat boxes of movers.
     sweep: Sweep,
@@ -38,21 +38,6 @@ pub(crate) struct Broad {
 }
 
 impl Broad {
-    pub(crate) fn new() -> Self {
-        Self {
-            sweep: Sweep::new(),
-            lists: Lists::default(),
-            standing: BoxTree::new(),
-            nodes: Vec::new(),
-            endless: Vec::new(),
-            arrived: Vec::new(),
-            woken: Vec::new(),
-            news: Vec::new(),
-            found: Vec::new(),
-            asked: Vec::new(),
-        }
-    }
-
     /// Makes a piece one of those that stand, in `bounds`.
     pub(crate) fn stand(&mut self, piece: u32, bounds: Aabb) {
         if bounds.is_finite() {

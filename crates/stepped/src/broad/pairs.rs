@@ -10,7 +10,7 @@ const NONE: u32 = u32::MAX;
 
 /// Partners of each piece with their contacts, in lists of both pieces: movers are asked about others one after the other,
 /// and have theirs at hand. What has many (a floor) is in the lists of the many.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
     lists: Vec<Partners>,
     /// Pairs that neither of the two lists had room for, the lesser piece first.
@@ -78,13 +78,6 @@ impl Partners {
 }
 
 impl Pairs {
-    pub(crate) fn new() -> Self {
-        Self {
-            lists: Vec::new(),
-            rest: BTreeSet::new(),
-        }
-    }
-
     /// Whether a pair has a contact; the first had better be the one that is asked about more often.
     pub(crate) fn contains(&self, [a, b]: [u32; 2]) -> bool {
         let Some(of_a) = self.lists.get(a as usize) else {
@@ -145,7 +138,7 @@ mod tests {
 
     #[test]
     fn lists_agree_with_a_map() {
-        let (mut pairs, mut map) = (Pairs::new(), BTreeMap::new());
+        let (mut pairs, mut map) = (Pairs::default(), BTreeMap::new());
         let mut random = 7u32;
         let mut full = 0;
         for step in 0..40_000 {
@@ -186,7 +179,7 @@ mod tests {
 
     #[test]
     fn a_piece_without_contacts_is_in_no_full_list() {
-        let mut pairs = Pairs::new();
+        let mut pairs = Pairs::default();
         for other in 1..40 {
             pairs.insert([0, other], other);
         }

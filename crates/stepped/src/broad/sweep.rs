@@ -57,8 +57,8 @@ pub(crate) struct Sweep {
     sizes: Vec<f64>,
 }
 
-impl Sweep {
-    pub(crate) fn new() -> Self {
+impl Default for Sweep {
+    fn default() -> Self {
         Self {
             level: Level::new(),
             keys: Vec::new(),
@@ -70,7 +70,9 @@ impl Sweep {
             sizes: Vec::new(),
         }
     }
+}
 
+impl Sweep {
     /// Makes the order of these movers, each piece once, with boxes by piece.
     pub(crate) fn sort(&mut self, movers: impl Iterator<Item = u32> + Clone, boxes: &[Aabb]) {
         let size = |piece: u32| {
@@ -308,7 +310,7 @@ mod tests {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             f64::from(random >> 8) / f64::from(1u32 << 24)
         };
-        let mut sweep = Sweep::new();
+        let mut sweep = Sweep::default();
         let mut boxes: Vec<Aabb> = Vec::new();
         for round in 0..80 {
             let spread = [5.0, 20.0, 1e3, 1e7][round / 2 % 4];

@@ -48,7 +48,7 @@ pub(crate) struct Contact {
 }
 
 /// All contacts. Adding and removing moves one lane at most.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
     pub(crate) contacts: Vec<Contact>,
     /// Bodies that may have ghosts.
@@ -83,13 +83,8 @@ impl Contact {
 impl Graph {
     pub(crate) fn new() -> Self {
         Self {
-            contacts: Vec::new(),
-            suspects: Suspects::default(),
-            free: Vec::new(),
-            deep: Vec::new(),
-            unequal: Vec::new(),
             colours: vec![Colour::default(); ASLEEP + 1],
-            hard: 0,
+            ..Self::default()
         }
     }
 
