@@ -235,34 +235,12 @@ impl Block {
     /// Copies a lane of another block.
     pub(crate) fn copy_lane(&mut self, to: usize, other: &Self, from: usize) {
         (self.a[to], self.b[to]) = (other.a[from], other.b[from]);
-        for (mine, theirs) in self.columns_mut().into_iter().zip(other.columns()) {
-            mine[to] = theirs[from];
-        }
-    }
-
-    const fn columns(&self) -> [&[f64; LANES]; 13] {
-        [
-            &self.nx, &self.ny, &self.a1, &self.b1, &self.l, &self.s1, &self.s2, &self.j1,
-            &self.j2, &self.at, &self.bt, &self.mu, &self.jt,
-        ]
-    }
-
-    const fn columns_mut(&mut self) -> [&mut [f64; LANES]; 13] {
-        [
-            &mut self.nx,
-            &mut self.ny,
-            &mut self.a1,
-            &mut self.b1,
-            &mut self.l,
-            &mut self.s1,
-            &mut self.s2,
-            &mut self.j1,
-            &mut self.j2,
-            &mut self.at,
-            &mut self.bt,
-            &mut self.mu,
-            &mut self.jt,
-        ]
+        (self.nx[to], self.ny[to]) = (other.nx[from], other.ny[from]);
+        (self.a1[to], self.b1[to]) = (other.a1[from], other.b1[from]);
+        (self.at[to], self.bt[to]) = (other.at[from], other.bt[from]);
+        (self.s1[to], self.s2[to]) = (other.s1[from], other.s2[from]);
+        (self.l[to], self.mu[to]) = (other.l[from], other.mu[from]);
+        self.set_impulses(to, other.impulses(from));
     }
 }
 
