@@ -51,13 +51,20 @@ impl ImpactBody {
         self.velocity + cross_scalar(self.spin, point - self.centre)
     }
 
-    /// The same body where it is, without its motion.
-    pub(super) fn at_rest(&self) -> Self {
+    /// The same body where it is, at another velocity, in m/s, and spin, in rad/s.
+    #[must_use]
+    pub const fn moving(&self, velocity: Vec2, spin: f64) -> Self {
         Self {
-            velocity: Vec2::ZERO,
-            spin: 0.0,
+            velocity,
+            spin,
             ..*self
         }
+    }
+
+    /// The same body where it is, without its motion.
+    #[must_use]
+    pub const fn at_rest(&self) -> Self {
+        self.moving(Vec2::ZERO, 0.0)
     }
 
     /// Most speed that an impulse of 1 N·s at `point` gives that point, in m/s.
@@ -74,11 +81,11 @@ impl ImpactBody {
     }
 
     pub(crate) fn pushed(&self, impulse: Vec2, point: Vec2) -> Self {
-        Self {
-            velocity: self.velocity + impulse * self.inverse_mass,
-            spin: self.spin + cross(point - self.centre, impulse) * self.inverse_inertia,
-            ..*self
-        }
+        let turn = cross(point - self.centre, impulse);
+        self.moving(
+            self.velocity + impulse * self.inverse_mass,
+            self.spin + turn * self.inverse_inertia,
+        )
     }
 }
 
@@ -202,11 +209,12 @@ impl Outcome {
             q + ((((wanted - product) - error) + rest) - q * low) / high
         };
         let impulse = share(1.0);
-        let pushed = |body: &ImpactBody, sign: f64| ImpactBody {
-            velocity: body.velocity + n * (sign * share(body.inverse_mass)),
-            spin: body.spin
-                + cross(point - body.centre, n * (sign * impulse)) * body.inverse_inertia,
-            ..*body
+        let pushed = |body: &ImpactBody, sign: f64| {
+            let turn = cross(point - body.centre, n * (sign * impulse));
+            body.moving(
+                body.velocity + n * (sign * share(body.inverse_mass)),
+                body.spin + turn * body.inverse_inertia,
+            )
         };
         Self::between(
             a,

@@ -28,7 +28,7 @@ impl Island {
         }
         let came = self.bodies.iter().zip(&self.came);
         let kinetic =
-            |(body, came): (&ImpactBody, &(Vec2, f64))| moving(body, *came).kinetic_energy();
+            |(body, (v, w)): (&ImpactBody, &(Vec2, f64))| body.moving(*v, *w).kinetic_energy();
         Some(came.map(kinetic).sum())
     }
 
@@ -37,7 +37,7 @@ impl Island {
         let before = self.energy?;
         let now = |(line, body): (u32, &ImpactBody)| {
             let now = &bodies.lines[line as usize];
-            moving(body, (now.v(), now.w())).kinetic_energy()
+            body.moving(now.v(), now.w()).kinetic_energy()
         };
         let kinetic: f64 = self.moved().map(now).sum();
         let went = |(line, from): (&u32, &Quad)| {
@@ -70,15 +70,6 @@ impl Island {
                 line.set_displacement(line.d() + way * part, line.turn() + turn * part);
             }
         }
-    }
-}
-
-/// A body with another motion.
-fn moving(body: &ImpactBody, (velocity, spin): (Vec2, f64)) -> ImpactBody {
-    ImpactBody {
-        velocity,
-        spin,
-        ..*body
     }
 }
 

@@ -129,11 +129,7 @@ impl Island {
     fn pushed(&self, part: f64, by: &[ImpactBody], bodies: &Bodies) -> Vec<ImpactBody> {
         let push = |(line, by): (&u32, &ImpactBody)| {
             let line = &bodies.lines[*line as usize];
-            ImpactBody {
-                velocity: line.v() + by.velocity * part,
-                spin: line.w() + by.spin * part,
-                ..*by
-            }
+            by.moving(line.v() + by.velocity * part, line.w() + by.spin * part)
         };
         self.lines.iter().zip(by).map(push).collect()
     }
@@ -193,11 +189,7 @@ impl Island {
         parts: &Parting,
         faces: &[HeldFace],
     ) -> (HeldFaces, f64) {
-        let at_rest = self.bodies.iter().map(|body| ImpactBody {
-            velocity: Vec2::ZERO,
-            spin: 0.0,
-            ..*body
-        });
+        let at_rest = self.bodies.iter().map(ImpactBody::at_rest);
         let held = self.held(&at_rest.collect::<Vec<_>>(), faces);
         let made = parts.fastest - law.push_out;
         let share = |(line, by): (&u32, &ImpactBody)| {

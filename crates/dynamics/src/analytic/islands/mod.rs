@@ -15,7 +15,6 @@ use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
 use crate::analytic::modes::{BodyMove, TouchMove, carrier};
 use crate::analytic::touching::Gathered;
-use crate::impact::ImpactBody;
 use crate::store::bodies::Bodies;
 use store::Kept;
 
@@ -104,10 +103,6 @@ pub(crate) fn kept(gathered: &Gathered, moves: &[BodyMove], touches: &[TouchMove
 /// Kinetic energy of all dynamic bodies of a group, in J.
 fn kinetic(gathered: &Gathered, moves: &[BodyMove]) -> f64 {
     let both = gathered.bodies.iter().zip(moves);
-    let moving = both.map(|(body, moved)| ImpactBody {
-        velocity: moved.velocity,
-        spin: moved.spin,
-        ..*body
-    });
+    let moving = both.map(|(body, moved)| body.moving(moved.velocity, moved.spin));
     moving.map(|body| body.kinetic_energy()).sum()
 }

@@ -280,13 +280,8 @@ fn without_roundings(
     }
     let held = stand(bodies, touches, speed);
     let both = bodies.iter().zip(held);
-    let without: Vec<ImpactBody> = both
-        .map(|(body, (velocity, spin))| ImpactBody {
-            velocity,
-            spin,
-            ..*body
-        })
-        .collect();
+    let without = both.map(|(body, (velocity, spin))| body.moving(velocity, spin));
+    let without: Vec<ImpactBody> = without.collect();
     (!turns(&without, touches, speed)).then_some(without)
 }
 
