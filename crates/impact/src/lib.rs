@@ -29,8 +29,6 @@ mod body;
 mod coulomb;
 pub mod dense;
 mod equations;
-#[cfg(test)]
-mod heaps;
 mod held;
 mod law;
 pub mod lemke;

@@ -6,9 +6,9 @@ use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 
 use super::coulomb::stop;
-use super::heaps::{self, body, energy, least_opening, velocity};
 use super::rows::{Rows, contact_rows};
 use super::{ImpactBody, ImpactContact, ImpactLaw, Several, SharedContact, several};
+use crate::tests::heaps::{self, body, energy, least_opening, velocity};
 
 /// Bodies and contacts of all materials, masses of 10^±`decades` kg.
 fn heap(decades: f64, most: usize) -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {

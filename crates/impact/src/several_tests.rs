@@ -3,11 +3,11 @@
 use carom_math::{Vec2, cross, vec2};
 use proptest::prelude::*;
 
-use super::heaps::{self, body, energy, least_opening};
 use super::{
     ImpactBody, ImpactContact, ImpactLaw, SharedContact, blend, generalised_reflections,
     newton_lcp, resolve,
 };
+use crate::tests::heaps::{self, body, energy, least_opening};
 
 /// Smooth bodies and contacts.
 fn heap() -> impl Strategy<Value = (Vec<ImpactBody>, Vec<SharedContact>)> {

@@ -124,7 +124,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::heaps::{energy, heap};
+    use crate::tests::heaps::{energy, heap};
     use crate::{HeldPoint, SharedContact, held_faces};
 
     /// Faces of one point each, which open at `opens` m/s at least.

@@ -1,5 +1,7 @@
 //! Laws that every impact obeys, whatever the bodies, the arm and the material.
 
+pub(super) mod heaps;
+
 use carom_math::{Vec2, cross, perp, vec2};
 use proptest::prelude::*;
 

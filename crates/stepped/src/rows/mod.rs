@@ -3,8 +3,6 @@
 mod block;
 mod bounce;
 mod bounce_budget;
-#[cfg(test)]
-mod check;
 mod colour;
 mod deep;
 mod extra_sweeps;

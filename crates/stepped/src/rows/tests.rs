@@ -1,5 +1,7 @@
 //! Every width gives the bits of the scalar twin.
 
+mod check;
+
 use carom_math::vec2;
 
 use super::kernel::{Pass, sweep};

@@ -3,11 +3,11 @@
 use carom_math::{Rot, Vec2, vec2};
 use proptest::prelude::*;
 
-use super::{ImpactBody, ImpactContact, SharedContact, SharedOutcome};
+use crate::{ImpactBody, ImpactContact, SharedContact, SharedOutcome};
 
 /// Bodies and fewer than `most` contacts, masses of 10^±`decades` kg, the first body perhaps immovable;
 /// restitution and friction as `material` has them.
-pub(super) fn heap(
+pub(crate) fn heap(
     decades: f64,
     most: usize,
     material: impl Strategy<Value = (f64, f64)>,
@@ -68,7 +68,7 @@ pub(super) fn heap(
 }
 
 /// A body by all its numbers: 1/m, 1/I, centre, velocity, spin.
-pub(super) const fn body(
+pub(crate) const fn body(
     inverse_mass: f64,
     inverse_inertia: f64,
     centre: Vec2,
@@ -84,18 +84,18 @@ pub(super) const fn body(
     }
 }
 
-pub(super) fn energy(bodies: &[ImpactBody]) -> f64 {
+pub(crate) fn energy(bodies: &[ImpactBody]) -> f64 {
     bodies.iter().map(ImpactBody::kinetic_energy).sum()
 }
 
 /// How fast a contact's second body moves away from its first, in m/s.
-pub(super) fn velocity(bodies: &[ImpactBody], shared: &SharedContact) -> Vec2 {
+pub(crate) fn velocity(bodies: &[ImpactBody], shared: &SharedContact) -> Vec2 {
     let point = shared.contact.point;
     bodies[shared.b].velocity_of(point) - bodies[shared.a].velocity_of(point)
 }
 
 /// The slowest opening of all contacts, in m/s: below 0 something closes.
-pub(super) fn least_opening(after: &SharedOutcome, contacts: &[SharedContact]) -> f64 {
+pub(crate) fn least_opening(after: &SharedOutcome, contacts: &[SharedContact]) -> f64 {
     let opening = |shared| velocity(&after.bodies, shared).dot(shared.contact.normal);
     contacts.iter().map(opening).fold(f64::INFINITY, f64::min)
 }

@@ -1,14 +1,15 @@
 //! What must hold of the graph between all calls.
 
-use super::block::LANES;
-use super::graph::{ASLEEP, Graph};
 use crate::bodies::Bodies;
+use crate::rows::Quad;
+use crate::rows::block::LANES;
+use crate::rows::graph::{ASLEEP, Graph};
 
 impl Graph {
     /// No body twice in a block, colours and places as the lanes are, warm starts the sum of impulses.
     pub(crate) fn check(&self, bodies: &Bodies) {
         let mut masks = vec![0u64; bodies.records.len()];
-        let mut sums = vec![super::Quad::default(); bodies.lines.len()];
+        let mut sums = vec![Quad::default(); bodies.lines.len()];
         let mut count = 0;
         for (c, colour) in self.colours.iter().enumerate() {
             let restitutions = colour.cold.iter().flat_map(|cold| cold.restitution);
