@@ -196,7 +196,7 @@ impl Engine {
             if sleepers.iter().any(Sleeper::is_unmet) {
                 self.islands.unmet -= 1;
                 for sleeper in &sleepers {
-                    waking.extend(self.unmet_at(sleeper.slot, TOUCHES));
+                    waking.extend(self.unmet_at(sleeper.slot));
                 }
             }
             self.raise(&sleepers);
@@ -247,12 +247,12 @@ impl Engine {
         found
     }
 
-    /// Those of them that were inserted asleep.
-    fn unmet_at(&self, slot: u32, margins: f64) -> Vec<u32> {
+    /// Those of them within `TOUCHES` that were inserted asleep.
+    fn unmet_at(&self, slot: u32) -> Vec<u32> {
         if self.islands.unmet == 0 {
             return Vec::new();
         }
-        let mut found = self.sleepers_at(slot, margins);
+        let mut found = self.sleepers_at(slot, TOUCHES);
         found.retain(|island| {
             let sleepers = self.islands.asleep[*island as usize].as_ref();
             sleepers.is_some_and(|sleepers| sleepers.iter().any(Sleeper::is_unmet))
@@ -285,7 +285,7 @@ impl Engine {
                 islands.push(self.bodies.records[contact.bodies[1 - side] as usize].island);
             }
         }
-        islands.extend(self.unmet_at(slot, TOUCHES));
+        islands.extend(self.unmet_at(slot));
         islands.retain(|island| *island != Bodies::NONE);
         islands.dedup();
         self.wake_all(&islands);
