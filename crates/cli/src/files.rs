@@ -59,17 +59,20 @@ pub(crate) fn apart(files: &[(&str, &Path)]) -> Result<(), Failure> {
 
 /// Whether two paths lead to one place, which need not be there.
 pub(crate) fn is_same(a: &Path, b: &Path) -> bool {
-    let whole = |path: &Path| {
-        let path = followed(path).ok()?;
-        fs::canonicalize(&path).ok().or_else(|| {
-            let folder = match path.parent()? {
-                here if here.as_os_str().is_empty() => Path::new("."),
-                folder => folder,
-            };
-            Some(fs::canonicalize(folder).ok()?.join(path.file_name()?))
-        })
-    };
-    whole(a).is_some_and(|a| Some(a) == whole(b))
+    let place = |path: &Path| whole(&std::path::absolute(followed(path).ok()?).ok()?);
+    place(a).is_some_and(|a| Some(a) == place(b))
+}
+
+/// An absolute path without links and `..`; folders on the way may be missing, and are yet to be made.
+fn whole(path: &Path) -> Option<PathBuf> {
+    if let Ok(path) = fs::canonicalize(path) {
+        return Some(path);
+    }
+    let folder = whole(path.parent()?)?;
+    match path.file_name() {
+        Some(name) => Some(folder.join(name)),
+        None => folder.parent().map(Path::to_path_buf),
+    }
 }
 
 /// Makes a folder and those above it.

@@ -167,6 +167,15 @@ fn one_file_is_not_two() {
     refused(&["--json", "a.toml"], &["--json a.toml is the scene, too"]);
     carom_in(folder.path(), &["sweep", "a.toml", "--out", "./a.toml"])
         .refused(&["--out ./a.toml is the scene, too"]);
+    // Also where folders on the way are still to be made.
+    refused(
+        &["--out", "new/er/b.csv", "--json", "new/../new/er/b.csv"],
+        &["--json new/../new/er/b.csv is --out, too"],
+    );
+    refused(
+        &["--out", "new/../a.toml"],
+        &["--out new/../a.toml is the scene, too"],
+    );
     assert_eq!(names(folder.path()), ["a.toml"]);
     assert_eq!(std::fs::read_to_string(place("a.toml")).unwrap(), scene);
 }
