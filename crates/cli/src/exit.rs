@@ -5,6 +5,9 @@ use std::process::ExitCode;
 use crate::number::with_short_numbers;
 use crate::out::tell;
 
+/// So many characters of a line are shown, and a quarter as many from its end.
+const LONGEST: usize = 1000;
+
 /// How a command ended that was not stopped by an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
@@ -46,9 +49,16 @@ impl Failure {
     }
 
     /// The message on a line of its own, whatever an error below wrote, and without numbers of hundreds of digits.
+    ///
+    /// Of what is longer than any text of ours, begin and end: in between is a key, a value or a name of a megabyte.
     pub fn line(&self) -> String {
         let parts: Vec<&str> = self.0.split_whitespace().collect();
-        with_short_numbers(&parts.join(" "))
+        let line = with_short_numbers(&parts.join(" "));
+        let mut places = line.char_indices().map(|(place, _)| place);
+        match (places.nth(LONGEST), places.nth_back(LONGEST / 4)) {
+            (Some(begin), Some(end)) => format!("{} … {}", &line[..begin], &line[end..]),
+            _ => line,
+        }
     }
 
     /// Prints `error: …` to stderr and gives exit code 2.

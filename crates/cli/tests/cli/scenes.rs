@@ -206,3 +206,20 @@ fn a_step_of_too_many_ticks_names_the_tick_in_the_file() {
         "steps of 1e199 s hold more than 1e7 of it",
     ]);
 }
+
+/// A line of a megabyte is no line for reading.
+#[test]
+fn what_is_named_is_not_named_at_any_length() {
+    let folder = tempfile::tempdir().unwrap();
+    let (long, place) = ("ä".repeat(500_000), folder.path().join("long.toml"));
+    for text in [
+        format!("version = 1\nduration = \"{long}\""),
+        format!("version = 1\n\"{long}\" = 1"),
+    ] {
+        fs::write(&place, text).unwrap();
+        let ran = carom_in(folder.path(), &["check", "long.toml"]);
+        let length = ran.err.chars().count();
+        assert!(length < 2000, "{length} characters");
+        ran.refused(&["long.toml:2:", "ääää", "…"]);
+    }
+}
