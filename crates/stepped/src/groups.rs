@@ -28,7 +28,7 @@ impl Groups {
 }
 
 /// All that hangs together with the first: these, then the others in the order in which they are met. `lead` calls back with what a
-/// number leads to; who was seen before is not met again.
+/// number leads to; what was seen before is not met again.
 pub(crate) fn reached(
     first: &[u32],
     seen: &mut [bool],

@@ -10,8 +10,7 @@ use carom_math::{Vec2, perp};
 
 use crate::bodies::{Bodies, number};
 use crate::pieces::Pieces;
-use crate::rows::{Arrival, Block, Colour, Graph, Law, REST};
-use crate::update::lanes;
+use crate::rows::{Arrival, Block, Colour, Graph, Law, REST, lanes};
 use crate::{BodyId, Engine};
 
 /// A run goes on for so many sub-steps at most: what is pressed on for longer lies there.

@@ -1,7 +1,7 @@
 //! Which pieces touch: begins and ends, as a caller asks for them.
 
 use crate::Engine;
-use crate::update::lanes;
+use crate::rows::lanes;
 
 /// Two convex pieces began or ceased to touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

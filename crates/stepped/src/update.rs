@@ -11,7 +11,7 @@ use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight};
 use crate::pieces::Pieces;
 use crate::rows::{
     Block, Cold, Colour, Deep, Graph, HARD, LANES, Law, OPEN, Pressed, RotatingRows, Side, Touched,
-    renew,
+    lanes, renew,
 };
 use crate::whole::PutPairs;
 use crate::{PairRules, Settings};
@@ -196,15 +196,6 @@ fn face(
 fn deepest(law: &Law, pieces: &Pieces, pair: [u32; 2]) -> f64 {
     let [a, b] = pair.map(|piece| pieces.outlines[piece as usize].extent());
     law.deepest(a.min(b))
-}
-
-/// Those lanes that have a bit.
-pub(crate) fn lanes(mut bits: u8) -> impl Iterator<Item = usize> + Clone {
-    core::iter::from_fn(move || {
-        let lane = bits.trailing_zeros() as usize;
-        bits &= bits.wrapping_sub(1);
-        (lane < LANES).then_some(lane)
-    })
 }
 
 /// Manifolds of pairs, each in its lane: pieces without outlines one by one.

@@ -11,8 +11,8 @@ use carom_math::Vec2;
 use crate::PairRules;
 use crate::bodies::Bodies;
 use crate::narrow::{Found, Scene};
-use crate::rows::{Block, Cold, Graph};
-use crate::update::{Fresh, Pair, lanes, place};
+use crate::rows::{Block, Cold, Graph, lanes};
+use crate::update::{Fresh, Pair, place};
 
 /// Cosine of the angle between the row of a piece and the way out of the whole shapes that it leads. −2, so that any row does: two L
 /// shapes stay 0.20 m in each other. From 0 to 2 all pairs of concave bodies come out that are tried, and a hundred L shapes at one

@@ -327,12 +327,11 @@ impl<'a> Approach<'a> {
         if highest_over(own, [vertex; 2], Some(edge)) >= floor {
             return false;
         }
-        let mut turning = self.spin.iter().chain(&self.angular_acceleration);
-        let turns = turning.any(|rate| *rate != 0.0);
         let ends = || {
             let (from, to) = own.edge(edge);
             [from, to].map(|p| at.rotation[side].inverse_mul(at.rotation[owner] * p - d))
         };
+        let turns = self.turns(0) || self.turns(1);
         !turns || highest_over(other, ends(), None) < floor
     }
 
@@ -381,7 +380,7 @@ impl<'a> Approach<'a> {
         let spin = |k: usize| self.spin_over(k, tau, end);
         let turning = |k: usize| spin(k) * spin(k) + alpha[k].abs();
         let (turns, falls) = match axis {
-            Axis::Edge { owner, .. } if turning(owner) == 0.0 => {
+            Axis::Edge { owner, .. } if !self.turns(owner) => {
                 let other = 1 - owner;
                 let falls = self.normal(axis, at).dot(self.acceleration);
                 (turning(other) * self.arm[other], falls)

@@ -34,6 +34,15 @@ pub(crate) enum Pressed {
 /// Gap of a point that is not there, in m: no body closes it within a sub-step.
 pub(crate) const OPEN: f64 = 1e30;
 
+/// Those lanes that have a bit.
+pub(crate) fn lanes(mut bits: u8) -> impl Iterator<Item = usize> + Clone {
+    core::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        bits &= bits.wrapping_sub(1);
+        (lane < LANES).then_some(lane)
+    })
+}
+
 /// Eight contacts of one colour, 112 bytes each: no two of them move the same body.
 ///
 /// ```text

@@ -2,12 +2,11 @@
 
 use carom_math::{Vec2, perp};
 
-use super::block::{Block, Cold, OPEN};
+use super::block::{Block, Cold, OPEN, lanes};
 use super::colour::Colour;
 use super::graph::{ASLEEP, Graph, HARD};
 use crate::Surface;
 use crate::bodies::Bodies;
-use crate::update::lanes;
 
 impl Graph {
     /// The block and lane of a contact.

@@ -27,7 +27,7 @@ mod turn_back;
 mod ways;
 mod widest;
 
-pub(crate) use block::{Block, Cold, LANES, OPEN, Pressed};
+pub(crate) use block::{Block, Cold, LANES, OPEN, Pressed, lanes};
 pub(crate) use bounce_budget::Before;
 pub(crate) use colour::Colour;
 pub(crate) use deep::Deep;
