@@ -171,12 +171,12 @@ impl World {
         }
     }
 
-    /// A pair of a free body and a shape of a body that waits for its method.
-    pub(crate) fn pair_free_body(&mut self, index: u32, at: u32) {
+    /// Pairs of a free body with shapes of bodies that wait for their method.
+    pub(crate) fn pair_free_body(&mut self, index: u32, shapes: &[u32]) {
         for slot in 0..self.bodies.get(index).colliders.len() {
             let mine = self.bodies.get(index).colliders[slot];
             self.broad
-                .pair_up(&mut self.bodies, &mut self.pairs, mine, at);
+                .pair_with(&mut self.bodies, &mut self.pairs, mine, shapes);
         }
     }
 

@@ -34,6 +34,8 @@ pub(crate) struct Broad {
     /// What the last search found, shapes and free bodies: kept for its memory.
     near: Vec<u32>,
     free: Vec<u32>,
+    /// What was a pair with a shape before a search, in order: kept for its memory.
+    known: Vec<u32>,
 }
 
 impl Broad {
@@ -164,17 +166,39 @@ impl Broad {
             }
         }
         near.sort_unstable();
-        for &other in &near {
+        near.dedup();
+        near.retain(|&other| {
             let theirs = bodies.colliders[other as usize].fat;
-            if self.search == PairSearch::Indexed && !theirs.overlaps(bounds) {
-                continue;
-            }
-            self.pair_up(bodies, pairs, at, other);
-        }
+            self.search == PairSearch::AllPairs || theirs.overlaps(bounds)
+        });
+        self.pair_with(bodies, pairs, at, &near);
         self.near = near;
     }
 
-    pub(crate) fn pair_up(&self, bodies: &mut Bodies, pairs: &mut Pairs, one: u32, two: u32) {
+    /// The pairs of a shape with these, of those that are none yet and may be one.
+    pub(crate) fn pair_with(
+        &mut self,
+        bodies: &mut Bodies,
+        pairs: &mut Pairs,
+        at: u32,
+        near: &[u32],
+    ) {
+        // Read once, not for each of what is near: of bodies at one place each has all others in its list.
+        let mut known = core::mem::take(&mut self.known);
+        known.clear();
+        let list = &bodies.get(bodies.colliders[at as usize].body).pairs;
+        known.extend(list.iter().filter_map(|&p| pairs.partner(p, at)));
+        known.sort_unstable();
+        for &other in near {
+            if known.binary_search(&other).is_err() {
+                self.insert_pair(bodies, pairs, at, other);
+            }
+        }
+        self.known = known;
+    }
+
+    /// Two shapes that are no pair yet, if they may be one.
+    fn insert_pair(&self, bodies: &mut Bodies, pairs: &mut Pairs, one: u32, two: u32) {
         let key = |i: u32| (bodies.colliders[i as usize].body, i);
         let (first, second) = if key(one) < key(two) {
             (one, two)
@@ -194,14 +218,6 @@ impl Broad {
             return;
         }
         if !self.may_touch(bodies, (first, second)) {
-            return;
-        }
-        let known = if a.pairs.len() < b.pairs.len() {
-            &a.pairs
-        } else {
-            &b.pairs
-        };
-        if known.iter().any(|&p| pairs.shapes(p) == (first, second)) {
             return;
         }
         let material = self.material(bodies, (first, second));

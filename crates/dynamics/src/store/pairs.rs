@@ -152,6 +152,14 @@ impl Pairs {
         self.shapes[place as usize]
     }
 
+    /// The other shape of a pair that this shape is in.
+    pub(crate) fn partner(&self, place: u32, shape: u32) -> Option<u32> {
+        match self.shapes(place) {
+            (one, other) | (other, one) if one == shape => Some(other),
+            _ => None,
+        }
+    }
+
     /// These places in order of colliders, each once.
     pub(crate) fn by_colliders(&self, places: impl IntoIterator<Item = u32>) -> Vec<u32> {
         let keyed = places

@@ -135,11 +135,10 @@ impl World {
             course.look = (2.0 * course.look).min(1.0);
         }
         course.clear_at = if clear { time } else { SimTime::NEVER };
+        near.retain(|&at| self.bodies.colliders[at as usize].body != index);
+        let mut waiting = Vec::new();
         for &at in &near {
             let owner = self.bodies.colliders[at as usize].body;
-            if owner == index {
-                continue;
-            }
             let state = self.bodies.get(owner);
             if state.goes_by_events() {
                 let [own, theirs] =
@@ -148,11 +147,12 @@ impl World {
                     self.approach(index, owner, window, time, cause);
                 }
             } else if state.is_active() {
-                self.pair_free_body(index, at);
+                waiting.push(at);
             } else {
                 self.approach_shape(index, at, time, cause);
             }
         }
+        self.pair_free_body(index, &waiting);
         self.free.shapes = near;
     }
 

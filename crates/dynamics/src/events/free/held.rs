@@ -77,7 +77,7 @@ impl World {
         }
         let (first, second) = impact.colliders;
         self.broad
-            .pair_up(&mut self.bodies, &mut self.pairs, first, second);
+            .pair_with(&mut self.bodies, &mut self.pairs, first, &[second]);
         let Some(place) = self.pair_of(impact) else {
             return;
         };
