@@ -1,7 +1,7 @@
 //! A search: fat boxes of what moved, their pairs, and which of these pairs of boxes overlap now.
 
 use super::Broad;
-use super::lists::{ASKED, KNOWN, LATE, LISTED, NEW, STANDS, is_mover};
+use super::lists::{AMONG, ASKED, BESIDE, KNOWN, LATE, LISTED, NEW, STANDS, is_mover};
 use crate::bodies::Bodies;
 use crate::pieces::Pieces;
 
@@ -83,7 +83,7 @@ impl Broad {
         let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
         for piece in movers.clone() {
             let k = piece as usize;
-            lists.states[piece as usize] &= !(KNOWN | NEW);
+            lists.states[piece as usize] &= !(KNOWN | NEW | BESIDE | AMONG);
             if pieces.boxes[k].is_valid() {
                 lists.fatten(piece, pieces.boxes[k], pieces.discs[k].velocity, tick);
                 lists.list(piece);
@@ -104,6 +104,7 @@ impl Broad {
             let bounds = lists.fat[piece as usize];
             standing.query(bounds, |other| pairs.push([piece, other]));
         }
+        lists.note_partners(&pairs);
         lists.pairs = pairs;
         lists.apart.clear();
     }
@@ -179,6 +180,7 @@ impl Broad {
         for piece in new.into_iter().chain(arrived) {
             lists.states[piece as usize] &= !NEW;
         }
+        lists.note_partners(&apart);
         (lists.apart, lists.late) = (apart, late);
     }
 

@@ -13,7 +13,7 @@ use carom_math::Vec2;
 const AHEAD: f64 = 3.0;
 
 /// It is larger on all sides by this part of the lesser side of the box. 0.1: 1.015 of the instructions of a drum, 0.3: 1.04.
-const ROOM: f64 = 0.2;
+pub(super) const ROOM: f64 = 0.2;
 
 // What is known of a piece; 0: it is nowhere.
 
@@ -28,6 +28,10 @@ pub(super) const STANDS: u8 = 4;
 pub(super) const ASKED: u8 = 8;
 /// Its pairs are not known yet.
 pub(super) const NEW: u8 = 16;
+/// A mover with a fat box that what stands overlapped since it has it.
+pub(super) const BESIDE: u8 = 32;
+/// The same of other movers' fat boxes.
+pub(super) const AMONG: u8 = 64;
 
 pub(super) const fn is_mover(state: u8) -> bool {
     state & KNOWN != 0 && state & STANDS == 0
@@ -94,6 +98,19 @@ impl Lists {
             bounds.min + ahead.min(Vec2::ZERO) - room,
             bounds.max + ahead.max(Vec2::ZERO) + room,
         );
+    }
+
+    /// Notes which pieces have pairs. What stands is the second of its pairs.
+    pub(super) fn note_partners(&mut self, pairs: &[[u32; 2]]) {
+        let states = &mut self.states;
+        for [a, b] in pairs {
+            if states[*b as usize] & STANDS != 0 {
+                states[*a as usize] |= BESIDE;
+            } else {
+                states[*a as usize] |= AMONG;
+                states[*b as usize] |= AMONG;
+            }
+        }
     }
 
     /// The pairs of a piece will be in the lists.

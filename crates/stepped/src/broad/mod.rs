@@ -11,7 +11,7 @@ use carom_geometry::Aabb;
 
 use crate::bodies::Bodies;
 use crate::pieces::Pieces;
-use lists::Lists;
+use lists::{AMONG, BESIDE, Lists, NEW, ROOM, is_mover};
 pub(crate) use pairs::Pairs;
 use sweep::Sweep;
 
@@ -108,6 +108,25 @@ impl Broad {
     pub(crate) fn standing_in(&self, bounds: Aabb, mut found: impl FnMut(u32)) {
         self.standing.query(bounds, &mut found);
         self.endless.iter().copied().for_each(found);
+    }
+
+    /// What may be where a mover goes within the tick, if it goes as was foreseen, give or take two margins: what stands, and other
+    /// movers that do.
+    pub(crate) fn beside(
+        &self,
+        pieces: &Pieces,
+        piece: u32,
+        (margin, tick): (f64, f64),
+    ) -> [bool; 2] {
+        let state = self.lists.states[piece as usize];
+        // Boxes hold half a margin, fat ones more.
+        let is_known = is_mover(state) && state & NEW == 0 && 1.5 * margin <= ROOM;
+        if !is_known || self.has_arrivals() || !self.lists.new.is_empty() {
+            return [true; 2];
+        }
+        let is_beyond = |plane: &u32| pieces.is_beyond_plane(piece, *plane, tick);
+        let stand = state & BESIDE != 0 || !self.endless.iter().all(is_beyond);
+        [stand, state & AMONG != 0]
     }
 
     /// Calls `found` with pieces that may be in `bounds`: movers until the end of the tick.

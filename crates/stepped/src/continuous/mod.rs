@@ -157,6 +157,25 @@ impl Engine {
         self.bodies.is_dynamic(body.slot) && self.bodies.line_of(body.slot) >= 2
     }
 
+    /// Fast bodies before their search, and those that leave their boxes.
+    fn fast_of(&self, mut noted: Vec<FastBody>, left: f64) -> (Fast, Vec<usize>) {
+        noted.retain(|body| self.is_searched(body));
+        noted.sort_unstable_by_key(|body| body.slot);
+        let leaving: Vec<usize> = (0..noted.len())
+            .filter(|k| self.leaves_boxes(&noted[*k]))
+            .collect();
+        let is_unboxed = |k: &usize| noted[*k].is_unforeseen() || leaving.binary_search(k).is_ok();
+        let fast = Fast {
+            moving: vec![None; noted.len()],
+            unboxed: (0..noted.len()).filter(is_unboxed).collect(),
+            in_order: noted.len(),
+            noted,
+            left,
+            shifted: Vec::new(),
+        };
+        (fast, leaving)
+    }
+
     /// Stops fast bodies that would pass through others within the `left` seconds of their motions; which ones it stopped.
     pub fn stop_fast(&mut self, left: f64, rules: &dyn PairRules) -> Vec<BodyId> {
         let is_whole = left >= self.law.h;
@@ -166,24 +185,11 @@ impl Engine {
             Vec::new()
         };
         // Each motion is searched once.
-        let mut noted = core::mem::take(&mut self.fast_bodies);
-        noted.retain(|body| self.is_searched(body));
-        noted.sort_unstable_by_key(|body| body.slot);
+        let noted = core::mem::take(&mut self.fast_bodies);
         if noted.is_empty() {
             return Vec::new();
         }
-        let leaving: Vec<usize> = (0..noted.len())
-            .filter(|k| self.leaves_boxes(&noted[*k], left))
-            .collect();
-        let is_unboxed = |k: &usize| noted[*k].is_unforeseen() || leaving.binary_search(k).is_ok();
-        let mut fast = Fast {
-            moving: vec![None; noted.len()],
-            unboxed: (0..noted.len()).filter(is_unboxed).collect(),
-            in_order: noted.len(),
-            noted,
-            left,
-            shifted: Vec::new(),
-        };
+        let (mut fast, leaving) = self.fast_of(noted, left);
         let mut touches = BinaryHeap::new();
         for k in 0..fast.noted.len() {
             self.search(&mut fast, k, (0.0, left), &leaving, rules, &mut touches);
@@ -359,14 +365,16 @@ impl Engine {
         }
     }
 
-    /// Whether a fast body leaves the swept boxes of the tick.
-    fn leaves_boxes(&self, body: &FastBody, left: f64) -> bool {
+    /// Whether the centre of mass of a fast body leaves the swept boxes of the tick.
+    fn leaves_boxes(&self, body: &FastBody) -> bool {
         let record = &self.bodies.records[body.slot as usize];
+        let at = record.line as usize;
+        let base = self.bodies.base[at].position;
+        let (from, to) = (base + body.from.0, base + self.bodies.lines[at].d());
         let boxes = record.pieces();
         let boxes = boxes.map(|piece| self.pieces.boxes[piece as usize]);
-        let (from, velocity) = self.way(body, left);
-        let way = way_box(from, velocity, left);
-        !boxes.fold(Aabb::EMPTY, Aabb::union).contains(way)
+        let boxes = boxes.fold(Aabb::EMPTY, Aabb::union);
+        !(boxes.contains_point(from) && boxes.contains_point(to))
     }
 
     /// Where a fast body came from `left` seconds before, and its velocity.

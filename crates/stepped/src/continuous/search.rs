@@ -10,7 +10,7 @@ use super::touching::Touching;
 use super::{Fast, Moving, SHORT};
 use crate::bodies::{Bodies, number};
 use crate::narrow::arc;
-use crate::{Engine, PairRules};
+use crate::{Engine, PairRules, Settings};
 
 impl Engine {
     /// Enters the first touches of fast body `k` with others from `span.0` to `span.1` seconds on; `leaving`: fast bodies that
@@ -24,14 +24,18 @@ impl Engine {
         rules: &dyn PairRules,
         touches: &mut BinaryHeap<Touching>,
     ) {
-        let body = *fast.of(self, k);
+        let [standing, movers] = self.sought(fast, k, leaving);
+        if !(standing || movers) && leaving.is_empty() {
+            return;
+        }
         let bounds = fast.bounds(self, k, span.1);
         let mut others: Vec<u32> = Vec::new();
-        let found = |piece: u32| others.push(piece);
-        if fast.noted[k].is_unforeseen() {
-            self.broad.pieces_in(&self.pieces, bounds, found);
-        } else {
-            self.broad.standing_in(bounds, found);
+        if standing {
+            self.broad.standing_in(bounds, |piece| others.push(piece));
+        }
+        if movers {
+            let found = |piece: u32| others.push(piece);
+            self.broad.movers_in(&self.pieces, bounds, found);
         }
         for &other in leaving {
             let record = &self.bodies.records[fast.noted[other].slot as usize];
@@ -40,16 +44,66 @@ impl Engine {
             }
         }
         self.first_parts(&mut others);
+        let birth = self.bodies.records[fast.noted[k].slot as usize].birth;
         for piece in others {
             let slot = self.pieces.list[piece as usize].body;
             let partner = fast.find(slot);
             // A pair of which both search among moving bodies is searched once.
-            let earlier = self.bodies.records[slot as usize].birth < body.birth;
-            let again = partner.is_some_and(|other| earlier && fast.noted[other].is_unforeseen());
-            if slot != body.slot && !again {
+            let earlier = self.bodies.records[slot as usize].birth < birth;
+            let again =
+                partner.is_some_and(|other| earlier && self.sought(fast, other, leaving)[1]);
+            if slot != fast.noted[k].slot && !again {
                 self.search_piece(fast, (k, partner), piece, span, rules, touches);
             }
         }
+    }
+
+    /// Whether a fast body is searched for among bodies that stand, and among moving ones: those that rows do not know of.
+    fn sought(&self, fast: &Fast, k: usize, leaving: &[usize]) -> [bool; 2] {
+        let noted = &fast.noted[k];
+        if noted.deviates || leaving.binary_search(&k).is_ok() {
+            return [true, noted.is_unforeseen()];
+        }
+        let Settings { margin, tick, .. } = self.settings;
+        let pieces = self.bodies.records[noted.slot as usize].pieces();
+        let beside = pieces.map(|piece| self.broad.beside(&self.pieces, piece, (margin, tick)));
+        let [standing, movers] = beside.fold([false; 2], |[a, b], [c, d]| [a | c, b | d]);
+        [standing, movers && noted.turns]
+    }
+
+    /// What [`Self::sought`] leaves out: how many of all others, one by one, and how many touches with them.
+    #[cfg(test)]
+    pub(crate) fn left_out(&self, rules: &dyn PairRules) -> [usize; 2] {
+        let left = self.law.h;
+        let (mut fast, leaving) = self.fast_of(self.fast_bodies.clone(), left);
+        let (mut count, mut touches) = (0, BinaryHeap::new());
+        for k in 0..fast.noted.len() {
+            let [standing, movers] = self.sought(&fast, k, &leaving);
+            let moves = fast.noted[k].is_unforeseen() && !movers;
+            for piece in 0..number(self.pieces.list.len()) {
+                let other = &self.pieces.list[piece as usize];
+                let line = self.bodies.records[other.body as usize].line;
+                let stands = [Bodies::GROUND, Bodies::NONE].contains(&line);
+                let is_left_out = if stands { !standing } else { moves };
+                if self.pieces.boxes[piece as usize].is_valid()
+                    && other.part == 0
+                    && other.body != fast.noted[k].slot
+                    && is_left_out
+                {
+                    let partner = fast.find(other.body);
+                    count += 1;
+                    self.search_piece(
+                        &mut fast,
+                        (k, partner),
+                        piece,
+                        (0.0, left),
+                        rules,
+                        &mut touches,
+                    );
+                }
+            }
+        }
+        [count, touches.len()]
     }
 
     /// The same of a body that goes on after a touch, with bodies that are not fast.

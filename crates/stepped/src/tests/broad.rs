@@ -69,6 +69,61 @@ fn finds_the_pairs_that_asking_all_finds() {
     assert!(count > 10_000, "{count}");
 }
 
+/// Fast bodies touch nothing of what is left out of their search.
+#[test]
+fn what_a_fast_body_is_not_searched_against_it_does_not_touch() {
+    let (mut left_out, mut stopped) = (0, 0);
+    for seed in 0..40 {
+        let mut random = Random::new(900 + seed);
+        let mut engine = Engine::new(weightless()).unwrap();
+        let spread = [2.0, 4.0, 8.0][random.below(3)];
+        let mut ids: Vec<BodyId> = Vec::new();
+        for step in 0..200 {
+            match random.below(12) {
+                0..4 if ids.len() < 30 => {
+                    let piece = random.piece();
+                    let mut body = random.body(&piece, spread);
+                    if random.below(4) == 0 {
+                        body.kind = BodyKind::Fixed;
+                    }
+                    ids.push(engine.insert(body, &[piece]).unwrap());
+                }
+                4..8 if !ids.is_empty() => {
+                    let velocity = vec2(random.signed(), random.signed()) * 60.0;
+                    let spin = 100.0 * random.signed();
+                    let id = ids[random.below(ids.len())];
+                    engine.set_velocity(id, velocity, spin).unwrap();
+                }
+                8 if !ids.is_empty() => {
+                    let id = ids.swap_remove(random.below(ids.len()));
+                    engine.remove(id).unwrap();
+                }
+                9 if !ids.is_empty() => {
+                    let id = ids[random.below(ids.len())];
+                    engine.set_pose(id, random.pose(spread)).unwrap();
+                }
+                10 if !ids.is_empty() => engine.sleep(ids[random.below(ids.len())]).unwrap(),
+                _ => {}
+            }
+            engine.find_contacts(&Mixed);
+            engine.advance();
+            // What comes before the search is in no list yet.
+            if random.below(4) == 0 && ids.len() < 30 {
+                let piece = random.piece();
+                let mut body = random.body(&piece, spread);
+                body.kind = [BodyKind::Fixed, BodyKind::Dynamic][random.below(2)];
+                ids.push(engine.insert(body, &[piece]).unwrap());
+            }
+            let [others, touches] = engine.left_out(&Mixed);
+            assert_eq!(touches, 0, "seed {seed}, step {step}");
+            left_out += others;
+            stopped += engine.stop_fast(engine.law.h, &Mixed).len();
+            engine.finish(&Mixed);
+        }
+    }
+    assert!(left_out > 100_000 && stopped > 100, "{left_out}, {stopped}");
+}
+
 /// Where a disc is beside a plank, it stays a margin away from it in the whole tick.
 #[test]
 fn what_is_beside_a_plank_stays_off_it() {
