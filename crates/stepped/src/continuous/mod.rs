@@ -157,23 +157,24 @@ impl Engine {
         self.bodies.is_dynamic(body.slot) && self.bodies.line_of(body.slot) >= 2
     }
 
-    /// Fast bodies before their search, and those that leave their boxes.
-    fn fast_of(&self, mut noted: Vec<FastBody>, left: f64) -> (Fast, Vec<usize>) {
+    /// Fast bodies before their search.
+    fn fast_of(&self, mut noted: Vec<FastBody>, left: f64) -> Fast {
         noted.retain(|body| self.is_searched(body));
         noted.sort_unstable_by_key(|body| body.slot);
-        let leaving: Vec<usize> = (0..noted.len())
-            .filter(|k| self.leaves_boxes(&noted[*k]))
-            .collect();
-        let is_unboxed = |k: &usize| noted[*k].is_unforeseen() || leaving.binary_search(k).is_ok();
-        let fast = Fast {
+        let mut fast = Fast {
             moving: vec![None; noted.len()],
-            unboxed: (0..noted.len()).filter(is_unboxed).collect(),
             in_order: noted.len(),
-            noted,
             left,
-            shifted: Vec::new(),
+            ..Fast::default()
         };
-        (fast, leaving)
+        for (k, body) in noted.iter().enumerate() {
+            let leaves = self.leaves_boxes(body);
+            fast.sought.push(self.sought(body, leaves));
+            fast.leaving.extend(leaves.then_some(k));
+            let is_unboxed = leaves || body.is_unforeseen();
+            fast.unboxed.extend(is_unboxed.then_some(k));
+        }
+        Fast { noted, ..fast }
     }
 
     /// Stops fast bodies that would pass through others within the `left` seconds of their motions; which ones it stopped.
@@ -189,10 +190,10 @@ impl Engine {
         if noted.is_empty() {
             return Vec::new();
         }
-        let (mut fast, leaving) = self.fast_of(noted, left);
+        let mut fast = self.fast_of(noted, left);
         let mut touches = BinaryHeap::new();
         for k in 0..fast.noted.len() {
-            self.search(&mut fast, k, (0.0, left), &leaving, rules, &mut touches);
+            self.search(&mut fast, k, (0.0, left), rules, &mut touches);
         }
         while let Some(mut touch) = touches.pop() {
             let ends = [Some(touch.a), fast.find(touch.other)];

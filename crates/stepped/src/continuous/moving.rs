@@ -51,10 +51,15 @@ impl Moving {
 }
 
 /// All of them. Most meet nothing: motions are made where one is asked for.
+#[derive(Default)]
 pub(super) struct Fast {
     /// By slot, in order.
     pub(super) noted: Vec<FastBody>,
     pub(super) moving: Vec<Option<Moving>>,
+    /// Whether they are searched for among bodies that stand, and among moving ones.
+    pub(super) sought: Vec<[bool; 2]>,
+    /// Those that leave their boxes.
+    pub(super) leaving: Vec<usize>,
     /// Those that may be where no box of the tick is: they leave theirs, deviate, or touched something.
     pub(super) unboxed: Vec<usize>,
     /// Seconds that the motions last.

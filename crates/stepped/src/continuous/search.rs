@@ -7,25 +7,23 @@ use carom_math::{SimTime, Vec2};
 
 use super::cores::{depth, parts};
 use super::touching::Touching;
-use super::{Fast, Moving, SHORT};
+use super::{Fast, FastBody, Moving, SHORT};
 use crate::bodies::{Bodies, number};
 use crate::narrow::arc;
 use crate::{Engine, PairRules, Settings};
 
 impl Engine {
-    /// Enters the first touches of fast body `k` with others from `span.0` to `span.1` seconds on; `leaving`: fast bodies that
-    /// leave their boxes.
+    /// Enters the first touches of fast body `k` with others from `span.0` to `span.1` seconds on.
     pub(super) fn search(
         &self,
         fast: &mut Fast,
         k: usize,
         span: (f64, f64),
-        leaving: &[usize],
         rules: &dyn PairRules,
         touches: &mut BinaryHeap<Touching>,
     ) {
-        let [standing, movers] = self.sought(fast, k, leaving);
-        if !(standing || movers) && leaving.is_empty() {
+        let [standing, movers] = fast.sought[k];
+        if !(standing || movers) && fast.leaving.is_empty() {
             return;
         }
         let bounds = fast.bounds(self, k, span.1);
@@ -37,7 +35,7 @@ impl Engine {
             let found = |piece: u32| others.push(piece);
             self.broad.movers_in(&self.pieces, bounds, found);
         }
-        for &other in leaving {
+        for &other in &fast.leaving {
             let record = &self.bodies.records[fast.noted[other].slot as usize];
             if fast.bounds(self, other, span.1).overlaps(bounds) {
                 others.extend(record.pieces());
@@ -50,8 +48,7 @@ impl Engine {
             let partner = fast.find(slot);
             // A pair of which both search among moving bodies is searched once.
             let earlier = self.bodies.records[slot as usize].birth < birth;
-            let again =
-                partner.is_some_and(|other| earlier && self.sought(fast, other, leaving)[1]);
+            let again = partner.is_some_and(|other| earlier && fast.sought[other][1]);
             if slot != fast.noted[k].slot && !again {
                 self.search_piece(fast, (k, partner), piece, span, rules, touches);
             }
@@ -59,9 +56,8 @@ impl Engine {
     }
 
     /// Whether a fast body is searched for among bodies that stand, and among moving ones: those that rows do not know of.
-    fn sought(&self, fast: &Fast, k: usize, leaving: &[usize]) -> [bool; 2] {
-        let noted = &fast.noted[k];
-        if noted.deviates || leaving.binary_search(&k).is_ok() {
+    pub(super) fn sought(&self, noted: &FastBody, leaves: bool) -> [bool; 2] {
+        if noted.deviates || leaves {
             return [true, noted.is_unforeseen()];
         }
         let Settings { margin, tick, .. } = self.settings;
@@ -75,10 +71,10 @@ impl Engine {
     #[cfg(test)]
     pub(crate) fn left_out(&self, rules: &dyn PairRules) -> [usize; 2] {
         let left = self.law.h;
-        let (mut fast, leaving) = self.fast_of(self.fast_bodies.clone(), left);
+        let mut fast = self.fast_of(self.fast_bodies.clone(), left);
         let (mut count, mut touches) = (0, BinaryHeap::new());
         for k in 0..fast.noted.len() {
-            let [standing, movers] = self.sought(&fast, k, &leaving);
+            let [standing, movers] = fast.sought[k];
             let moves = fast.noted[k].is_unforeseen() && !movers;
             for piece in 0..number(self.pieces.list.len()) {
                 let other = &self.pieces.list[piece as usize];
