@@ -19,6 +19,9 @@ use super::osculating::Jerk;
 /// Guesses before the equation counts as solved as well as numbers allow.
 const GUESSES: u32 = 100;
 
+/// A step of the universal anomaly by no more than this part of it is the last one.
+const LAST: f64 = 2.0 * f64::EPSILON;
+
 /// A conic about a centre, told by a place and a velocity on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Conic {
@@ -138,7 +141,8 @@ impl Conic {
     fn after(&self, (x, v): (Vec2, Vec2), t: f64) -> (Vec2, Vec2) {
         let root = self.strength.sqrt();
         let (r0, sigma) = (x.length(), x.dot(v) / root);
-        let [u0, u1, u2, _] = self.universal(self.anomaly(root * t, r0, sigma));
+        let (chi, _) = self.anomaly(root * t, r0, sigma);
+        let [u0, u1, u2, _] = self.universal(chi);
         let r = r0 * u0 + sigma * u1 + u2;
         let (f, g) = (1.0 - u2 / r0, (r0 * u1 + sigma * u2) / root);
         let (df, dg) = (-root * u1 / (r * r0), 1.0 - u2 / r);
@@ -164,10 +168,10 @@ impl Conic {
         }
     }
 
-    /// χ with `r₀ U₁ + σ₀ U₂ + U₃ = way`: the left side grows with slope r > 0, so a bracket closes.
-    fn anomaly(&self, way: f64, r0: f64, sigma: f64) -> f64 {
+    /// χ with `r₀ U₁ + σ₀ U₂ + U₃ = way`: the left side grows with slope r > 0, so a bracket closes. And how many guesses it took.
+    fn anomaly(&self, way: f64, r0: f64, sigma: f64) -> (f64, u32) {
         if way == 0.0 {
-            return 0.0;
+            return (0.0, 0);
         }
         let (mut low, mut high) = if way > 0.0 {
             (0.0, f64::INFINITY)
@@ -185,7 +189,7 @@ impl Conic {
             chi = chi.clamp(-far, far);
         }
         let mut last = f64::INFINITY;
-        for _ in 0..GUESSES {
+        for guess in 1..=GUESSES {
             let [u0, u1, u2, u3] = self.universal(chi);
             let off = r0 * u1 + sigma * u2 + u3 - way;
             // What numbers cannot hold is too far.
@@ -201,6 +205,10 @@ impl Conic {
             }
             let r = r0 * u0 + sigma * u1 + u2;
             let next = chi - off / r;
+            // It may be an end of the bracket: on a circle the first guess is χ.
+            if r > 0.0 && (next - chi).abs() <= LAST * chi.abs() {
+                return (next, guess);
+            }
             let bracketed = low.is_finite() && high.is_finite();
             // Newton's step if it stays inside and at least halves the one before: near the centre the
             // slope r is next to nothing, and it leaps.
@@ -216,11 +224,11 @@ impl Conic {
             let step = (next - chi).abs();
             last = if bracketed { step } else { f64::INFINITY };
             chi = next;
-            if step <= 2.0 * f64::EPSILON * chi.abs() {
-                break;
+            if step <= LAST * chi.abs() {
+                return (chi, guess);
             }
         }
-        chi
+        (chi, GUESSES)
     }
 
     /// U₀ … U₃ at χ.
@@ -271,6 +279,20 @@ mod tests {
         for speed in [2.1, 2.5, 1.5, 0.7] {
             let off = closes_after(100.0, vec2(3.0, 0.0), vec2(0.3, speed), 12.0);
             assert!(off < 1e-11, "{off:e} at {speed} m/s");
+        }
+    }
+
+    /// A guess may be χ itself, as the first one on a circle: the bracket was halved down to it then, 55 times.
+    #[test]
+    fn a_few_guesses_find_a_place_on_an_ellipse() {
+        for eccentricity in [0.0, 1e-9, 0.1, 0.5, 0.9, 0.99] {
+            let speed = (5.0_f64 * (1.0 + eccentricity)).sqrt();
+            let conic = Conic::through(Vec2::ZERO, 5.0, Vec2::X, vec2(0.0, speed)).unwrap();
+            for k in 0..200 {
+                let t = conic.period() * f64::from(k) / 400.0;
+                let (_, guesses) = conic.anomaly(5.0_f64.sqrt() * t, 1.0, 0.0);
+                assert!(guesses <= 12, "{guesses}, e = {eccentricity}, {t} s");
+            }
         }
     }
 
