@@ -53,7 +53,11 @@ fn broken_texts_are_named() {
         ),
         (
             "version = 1\nseed = 1\nseed = 2\n",
-            "bad.toml:3:1: not valid TOML: duplicate key",
+            "bad.toml:3:1: not valid TOML: duplicate key 'seed'",
+        ),
+        (
+            "version = 1\n[look]\ntheme = 'dark'\n[look]\n",
+            "bad.toml:4:2: not valid TOML: duplicate key 'look'",
         ),
         // Unknown names.
         (
@@ -121,6 +125,15 @@ fn broken_texts_are_named() {
         (
             "version = 1\n[[field]]\nkind = 'radial'\ncentre = [0, 0]\ncore = 1\n",
             "bad.toml:2:1: field.strength: missing: this field must be given",
+        ),
+        // No field is a date.
+        (
+            "version = 1\nname = 2020-01-01\n",
+            "bad.toml:2:8: name: found the date or time 2020-01-01, which no field takes: a string needs quotes",
+        ),
+        (
+            "version = 1\n[[body]]\nposition = [10:30:00, 1]\n",
+            "bad.toml:3:13: body.position[0]: found the date or time 10:30:00, which no field takes: a string needs quotes",
         ),
         // Numbers.
         (

@@ -81,6 +81,26 @@ fn wrong_values_are_named_with_their_place() {
             "bad.toml:5:8: body.face: cannot read no-such-face.png: no such file",
         ),
         (
+            body("face = ''"),
+            "bad.toml:5:8: body.face: the name is empty: builtin, or a PNG file beside the scene",
+        ),
+        (
+            body("mass = 5e-324"),
+            "bad.toml:5:8: body.mass: mass is 5e-324, too small for the shape: the moment of inertia is 0 (body \"ball\")",
+        ),
+        (
+            body("inertia = 0"),
+            "bad.toml:5:11: body.inertia: inertia is 0, not above 0 (body \"ball\")",
+        ),
+        (
+            body("kind = 'fixed'\nvelocity = [0, -1.5]"),
+            "bad.toml:6:12: body.velocity: [0, -1.5] on a fixed body, which does not move: kind = \"kinematic\" does",
+        ),
+        (
+            body("kind = 'fixed'\nspin = 2"),
+            "bad.toml:6:8: body.spin: 2 on a fixed body, which does not move: kind = \"kinematic\" does",
+        ),
+        (
             "version = 1\n[[body]]\nname = 'a'\n".to_owned(),
             "bad.toml:2:1: body.shape: missing: a body needs a shape",
         ),

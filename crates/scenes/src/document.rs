@@ -80,8 +80,8 @@ impl Document {
     pub(crate) fn read(&self) -> Result<SceneFile, SceneError> {
         let mut tree = self.tree()?;
         self.check_version(&tree)?;
-        if let Some((span, number)) = clean_numbers_in(&mut tree) {
-            return Err(self.error_in(&tree, &span, Problem::NotFinite(number)));
+        if let Some((span, problem)) = clean_table(&mut tree) {
+            return Err(self.error_in(&tree, &span, problem));
         }
         let root = Spanned::new(0..0, tree);
         let file = SceneFile::deserialize(toml::de::Deserializer::from(root))
@@ -136,11 +136,15 @@ impl Document {
     fn tree(&self) -> Result<DeTable<'_>, SceneError> {
         let parsed = DeTable::parse(&self.text);
         let mut tree = parsed
-            .map_err(|error| SceneError {
-                origin: self.origin.clone(),
-                place: self.place(error.span().map_or(0, |span| span.start)),
-                field: String::new(),
-                problem: Box::new(syntax(error.message())),
+            .map_err(|error| {
+                let span = error.span().unwrap_or_default();
+                let text = self.text.get(span.clone()).unwrap_or_default();
+                SceneError {
+                    origin: self.origin.clone(),
+                    place: self.place(span.start),
+                    field: String::new(),
+                    problem: Box::new(syntax(error.message(), text)),
+                }
             })?
             .into_inner();
         for over in &self.overrides {
@@ -271,12 +275,12 @@ impl Document {
     }
 }
 
-/// Turns −0 into 0; answers with the first number that is not finite.
-fn clean_numbers_in(table: &mut DeTable<'_>) -> Option<(Range<usize>, String)> {
-    table.iter_mut().find_map(|(_, value)| clean_numbers(value))
+/// Turns −0 into 0; answers with the first value that no field takes: a number that is not finite, or a date.
+fn clean_table(table: &mut DeTable<'_>) -> Option<(Range<usize>, Problem)> {
+    table.iter_mut().find_map(|(_, value)| clean(value))
 }
 
-fn clean_numbers(value: &mut Spanned<DeValue<'_>>) -> Option<(Range<usize>, String)> {
+fn clean(value: &mut Spanned<DeValue<'_>>) -> Option<(Range<usize>, Problem)> {
     let span = value.span();
     match value.get_mut() {
         DeValue::Float(float) => match float.as_str().parse::<f64>() {
@@ -286,10 +290,17 @@ fn clean_numbers(value: &mut Spanned<DeValue<'_>>) -> Option<(Range<usize>, Stri
                 }
                 None
             }
-            _ => Some((span, float.as_str().to_owned())),
+            _ => Some((span, Problem::NotFinite(float.as_str().to_owned()))),
         },
-        DeValue::Array(items) => items.iter_mut().find_map(clean_numbers),
-        DeValue::Table(table) => clean_numbers_in(table),
+        // The parser hands it on as a table of its own.
+        DeValue::Datetime(date) => Some((
+            span,
+            Problem::Type(format!(
+                "found the date or time {date}, which no field takes: a string needs quotes"
+            )),
+        )),
+        DeValue::Array(items) => items.iter_mut().find_map(clean),
+        DeValue::Table(table) => clean_table(table),
         _ => None,
     }
 }

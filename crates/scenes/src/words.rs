@@ -2,10 +2,12 @@
 
 use crate::error::Problem;
 
-/// The nesting limit is the parser's own, and its words are about itself.
-pub(crate) fn syntax(message: &str) -> Problem {
+/// The nesting limit is the parser's own, and its words are about itself; a key is not in its words, but is the text there.
+pub(crate) fn syntax(message: &str, text: &str) -> Problem {
     if message.contains("recurs") {
         Problem::Syntax("nested too deep".to_owned())
+    } else if message == "duplicate key" {
+        Problem::Syntax(format!("{message} '{text}'"))
     } else {
         Problem::Syntax(message.replace('`', "'"))
     }

@@ -179,6 +179,11 @@ impl<'a> Faces<'a> {
         if let Some(face) = self.known.get(name) {
             return Ok(face.clone());
         }
+        if name.is_empty() {
+            let reason = "the name is empty: builtin, or a PNG file beside the scene";
+            let problem = Problem::Refused(reason.to_owned());
+            return Err(self.scene.document.error(field, problem));
+        }
         let face = if name == "builtin" {
             Face::smile()
         } else {

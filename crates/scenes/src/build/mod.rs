@@ -17,6 +17,7 @@ use carom_dynamics::{
     SettingsError, World,
 };
 use carom_geometry::{Circle, Shape};
+use carom_math::Vec2;
 
 use crate::document::Document;
 use crate::error::{Problem, SceneError, nearest};
@@ -210,6 +211,9 @@ fn written_body(
     body.angle = shape::angle(document, &field, "angle", table.angle, table.angle_deg)?;
     body.velocity = table.velocity.map_or(body.velocity, |velocity| velocity.0);
     body.spin = table.spin;
+    if body.kind == BodyKind::Fixed {
+        still(planner, &body)?;
+    }
     body.mass = table.mass;
     body.inertia = table.inertia;
     body.locked_rotation = table.locked_rotation;
@@ -221,6 +225,26 @@ fn written_body(
     body.colour.clone_from(&table.colour);
     body.face.clone_from(&table.face);
     planner.add(body)
+}
+
+/// Refuses what a fixed body would leave out without a word.
+fn still(planner: &Planner<'_>, body: &Planned) -> Result<(), SceneError> {
+    let Vec2 { x, y } = body.velocity;
+    for (key, value, moves) in [
+        (
+            "velocity",
+            format!("[{x}, {y}]"),
+            body.velocity != Vec2::ZERO,
+        ),
+        ("spin", body.spin.to_string(), body.spin != 0.0),
+    ] {
+        if moves {
+            let reason =
+                format!("{value} on a fixed body, which does not move: kind = \"kinematic\" does");
+            return Err(planner.refuse(&body.field.key(key), reason));
+        }
+    }
+    Ok(())
 }
 
 /// What `[[pair]]` says of two bodies by name.
@@ -350,8 +374,22 @@ fn insert(document: &Document, world: &mut World, body: &Planned) -> Result<Body
         .map(|(shape, surface)| (Shape::clone(shape), surface.material))
         .collect();
     let refused = |error: BodyError| {
-        let problem = Problem::Refused(format!("{error} (body \"{}\")", body.name));
-        document.error(&origin_of(&error, body), problem)
+        let (place, reason) = match (&error, body.mass, body.inertia) {
+            // What is not in the file follows from the mass, and is 0 where that has no digits left.
+            (
+                BodyError::NotPositive {
+                    field: "inertia", ..
+                },
+                Some(mass),
+                None,
+            ) => (
+                body.field.key("mass"),
+                format!("mass is {mass:?}, too small for the shape: the moment of inertia is 0"),
+            ),
+            _ => (origin_of(&error, body), error.to_string()),
+        };
+        let problem = Problem::Refused(format!("{reason} (body \"{}\")", body.name));
+        document.error(&place, problem)
     };
     let id = world.insert_compound(def, shapes).map_err(refused)?;
     for (k, (_, surface)) in body.shapes.iter().enumerate() {
