@@ -62,6 +62,14 @@ fn numbered(
         |easel, index, frame| Ok(folder.save(&name(index), &draw(easel, &frame))?),
         |_, ()| Ok(()),
     )?;
+    // A run of hours does not end as done while frames that it listed are missing.
+    let gone = plan.slice.clone().find(|&index| !folder.has(&name(index)));
+    if let Some(index) = gone.filter(|_| !footage.interrupted) {
+        fail!(
+            "{} was removed by something else: --resume draws it again",
+            folder.path().join(name(index)).display()
+        );
+    }
     let place = folder.path().display();
     let files = match kept {
         0 => format!("in {place}"),

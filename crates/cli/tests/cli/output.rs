@@ -56,6 +56,36 @@ fn frames_do_not_depend_on_threads_or_slices() {
 }
 
 #[test]
+fn frames_that_something_else_removes_while_others_are_drawn_are_missed() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = "render thesis --seconds 100 --fps 60 --size 160x120 --threads 1 --out out";
+    let child = std::process::Command::new(crate::CAROM)
+        .args(args.split(' '))
+        .current_dir(folder.path())
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let place = |index: u32| folder.path().join(format!("out/frame_{index:05}.png"));
+    while !place(4).exists() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    fs::remove_file(place(3)).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("frame_00003.png") && said.contains("--resume"),
+        "{said}"
+    );
+    let again = carom_in(
+        folder.path(),
+        &[&args.split(' ').collect::<Vec<_>>()[..], &["--resume"]].concat(),
+    );
+    assert!(again.done().out.contains("1 drawn, 5999 kept"));
+}
+
+#[test]
 fn frames_that_are_there_are_kept_resumed_or_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
