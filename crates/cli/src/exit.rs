@@ -20,7 +20,7 @@ pub enum End {
 }
 
 impl End {
-    /// 0, 1, or 128 and the number of the signal: 130 for Ctrl-C, 143 for termination. 2 if a line to stdout was lost.
+    /// 0, 1, or 128 and the number of the signal: 129 for a terminal that hung up, 130 for Ctrl-C, 143 for termination. 2 if a line to stdout was lost.
     pub fn code(self) -> ExitCode {
         if let Some(error) = crate::out::lost() {
             return Failure::new(format!("cannot write to stdout: {error}")).report();

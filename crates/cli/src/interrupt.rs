@@ -49,7 +49,7 @@ pub fn asked() -> bool {
     ASKED.load(Ordering::SeqCst) != 0
 }
 
-/// The exit code after a request to end: 130 for Ctrl-C, 143 for termination.
+/// The exit code after a request to end: 129 for a terminal that hung up, 130 for Ctrl-C, 143 for termination.
 pub(crate) fn code() -> u8 {
     match ASKED.load(Ordering::SeqCst) {
         0 => CTRL_C,

@@ -2,8 +2,8 @@
 //!
 //! [`Command`] is a list of [clap](https://docs.rs/clap) subcommands that another program can take into its own list;
 //! [`run`] reads the arguments, runs what they ask for and gives the exit code. Every command ends alike: exit code 0
-//! done, 1 a check fell short, 2 bad usage or input (one line that begins with `error: `), 130 interrupted, 143
-//! terminated. Files appear whole or not at all; Ctrl-C keeps what is done, so that a table of `simulate` ends there.
+//! done, 1 a check fell short, 2 bad usage or input (one line that begins with `error: `), 129 the
+//! terminal hung up, 130 interrupted, 143 terminated. Files appear whole or not at all; Ctrl-C keeps what is done, so that a table of `simulate` ends there.
 //!
 //! # Examples
 //! ```

@@ -12,7 +12,7 @@ use crate::{check, inertia, list, merge, render, simulate, sweep, usage};
 const NAME: &str = "{carom}";
 
 /// What each exit code means, for the end of a help text.
-pub const EXIT_CODES: &str = "Exit codes: 0 done, 1 a check fell short, 2 bad usage or input, 130 interrupted, 143 terminated.";
+pub const EXIT_CODES: &str = "Exit codes: 0 done, 1 a check fell short, 2 bad usage or input, 129 hung up, 130 interrupted, 143 terminated.";
 
 /// Version and features of this build: `0.1.0 (features: parallel)`.
 pub const VERSION: &str = if cfg!(feature = "parallel") {

@@ -11,7 +11,7 @@ use clap::{Args, Parser, Subcommand};
     name = "cargo xtask",
     bin_name = "cargo xtask",
     version,
-    after_help = "Exit codes: 0 done, 2 bad usage or input, 130 interrupted, 143 terminated."
+    after_help = "Exit codes: 0 done, 2 bad usage or input, 129 hung up, 130 interrupted, 143 terminated."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
