@@ -13,6 +13,24 @@ use crate::exit::{Failure, fail};
 ///
 /// Gives the place where a link leads: what is renamed to a link's name would take the place of the link.
 pub fn prepare(place: &Path) -> Result<PathBuf, Failure> {
+    if is_stdout(place) {
+        fail!("cannot write -: that is no stdout here, and ./- a file of that name");
+    }
+    refuse_other_than_file(place)?;
+    let place = followed(place)?;
+    if let Some(folder) = place.parent() {
+        make_folder(folder)?;
+    }
+    Ok(place)
+}
+
+/// Whether a place is `-`, which means stdout where a command can write to it.
+pub(crate) fn is_stdout(place: &Path) -> bool {
+    place.as_os_str() == "-"
+}
+
+/// Refuses a place that is a folder, a pipe or a device; opening a pipe to look at it could wait for ever.
+pub(crate) fn refuse_other_than_file(place: &Path) -> Result<(), Failure> {
     if let Ok(about) = fs::metadata(place)
         && !about.is_file()
     {
@@ -23,11 +41,7 @@ pub fn prepare(place: &Path) -> Result<PathBuf, Failure> {
         };
         fail!("cannot write {}: it is {kind}", place.display());
     }
-    let place = followed(place)?;
-    if let Some(folder) = place.parent() {
-        make_folder(folder)?;
-    }
-    Ok(place)
+    Ok(())
 }
 
 /// Most links that lead to each other, as on Linux.

@@ -143,7 +143,7 @@ pub struct SweepArgs {
     /// How bodies are moved [default: the scene's]
     #[arg(long, value_enum)]
     pub mode: Option<ModeFlag>,
-    /// File for the table, replaced if it exists [default: stdout]
+    /// File for the table, replaced if it exists; - for stdout [default: stdout]
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
     /// Runs at a time [default: one a core]
@@ -179,7 +179,7 @@ pub struct SimulateArgs {
     /// How bodies are moved [default: the scene's]
     #[arg(long, value_enum)]
     pub mode: Option<ModeFlag>,
-    /// File for the trajectories, replaced if it exists [default: stdout]
+    /// File for the trajectories, replaced if it exists; - for stdout [default: stdout]
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
     /// File for the summary

@@ -24,6 +24,9 @@ struct Slice {
 }
 
 pub(crate) fn run(args: &MergeArgs) -> Outcome {
+    if args.out.as_deref().is_some_and(files::is_stdout) {
+        fail!("--out - is no stdout here, and ./- a place of that name");
+    }
     let is_table = |path: &PathBuf| path.extension().is_some_and(|end| end == "csv");
     if args.dirs.iter().all(is_table) {
         let out = args.out.as_deref().unwrap_or(Path::new("out/merged.csv"));

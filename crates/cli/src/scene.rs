@@ -14,7 +14,10 @@ pub fn open(name: &str, set: &[KeyValue], mode: Option<ModeFlag>) -> Result<Scen
         fail!("the name of the scene is empty");
     }
     let mut scene = carom_scenes::open(name)?;
-    for KeyValue { key, value } in set {
+    for (k, KeyValue { key, value }) in set.iter().enumerate() {
+        if set[..k].iter().any(|other| other.key == *key) {
+            fail!("--set {key} is given twice");
+        }
         scene.set(key, value)?;
     }
     if let Some(mode) = mode {

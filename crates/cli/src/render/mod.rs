@@ -5,12 +5,13 @@ mod job;
 mod look;
 mod sink;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use carom_render::{Camera, Existing, FrameRate, OutputFolder, Packing, Size};
 use carom_scenes::Built;
 
 use crate::exit::{End, Failure, Outcome, fail};
+use crate::files;
 use crate::film::{Footage, Plan};
 use crate::flags::{Format, PackingFlag, RenderArgs};
 use crate::out::{self, say};
@@ -24,7 +25,7 @@ pub(crate) use job::Job;
 pub use sink::{caption, tiles};
 
 pub(crate) fn run(args: &RenderArgs) -> Outcome {
-    let to_stdout = args.out.as_deref() == Some(Path::new("-"));
+    let to_stdout = args.out.as_deref().is_some_and(files::is_stdout);
     check_flags(args, to_stdout)?;
     let scene = scene::open(&args.scene, &args.set, args.mode)?;
     let mut built = scene.build()?;

@@ -53,6 +53,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
         );
     }
     let (out, json) = (args.out.as_deref(), args.json.as_deref());
+    let out = out.filter(|place| !files::is_stdout(place));
     let scene_file = ("the scene", Path::new(&args.scene));
     let asked = [("--out", out), ("--json", json)];
     let asked = asked
@@ -66,7 +67,7 @@ pub(crate) fn run(args: &SimulateArgs) -> Outcome {
     table.finish()?;
 
     let summary = run.watch.finish(&built.world, scene.name());
-    report(args, &summary, &run);
+    report(out, &summary, &run);
     json.map_or(Ok(()), |json| json.finish(&summary))?;
     Ok(if run.interrupted {
         End::Interrupted
@@ -140,13 +141,13 @@ fn whole_steps(seconds: f64, every: f64) -> u64 {
 }
 
 /// To stdout where the table has its own file, else to stderr.
-fn report(args: &SimulateArgs, summary: &Summary, run: &Run) {
+fn report(out: Option<&Path>, summary: &Summary, run: &Run) {
     let mut lines = summary.lines();
     lines.push(format!("physics      {:.3} s", run.physics));
     if run.interrupted {
         lines.push("INTERRUPTED  the run ended early".to_owned());
     }
-    match &args.out {
+    match out {
         Some(path) => {
             lines.iter().for_each(|line| say!("{line}"));
             say!("trajectories {}", path.display());

@@ -1,5 +1,7 @@
 //! What a sweep varies: `KEY=from:to:count`, or `KEY=` and a list of values with commas.
 
+use std::collections::BTreeSet;
+use std::ops::Range;
 use std::str::FromStr;
 
 use crate::number::number;
@@ -108,6 +110,21 @@ pub(super) fn values(axes: &[Axis], seeds: u64, k: u64) -> (Vec<&str>, u64) {
     (chosen, seed)
 }
 
+/// Runs of these that have each value of each axis that occurs in them, in order: the first one, and those where a value changes.
+pub(super) fn samples(axes: &[Axis], seeds: u64, runs: &Range<u64>) -> BTreeSet<u64> {
+    let mut samples = BTreeSet::from([runs.start]);
+    // So many runs in a row have one value.
+    let mut stride = seeds;
+    for axis in axes.iter().rev() {
+        let count = axis.values.len() as u64;
+        let first = runs.start.next_multiple_of(stride);
+        let changes = (0..count).map(|k| first + k * stride);
+        samples.extend(changes.take_while(|run| *run < runs.end));
+        stride *= count;
+    }
+    samples
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,5 +155,24 @@ mod tests {
         assert_eq!(all[11], (vec!["2", "z"], 1));
         assert!("a=1:2:4000000000".parse::<Axis>().is_err());
         assert!(runs(&[axis("a=1:2:1000000")], 10_000).is_err());
+    }
+
+    #[test]
+    fn samples_have_every_value_that_the_runs_have() {
+        let axes = [axis("a=1,2,3"), axis("b=x,y"), axis("c=1,2,3,4")];
+        let all = 5 * runs(&axes, 1).unwrap();
+        for (start, end) in [(0, all), (0, 1), (7, 8), (3, 50), (59, all), (38, 44)] {
+            let of = |runs: &mut dyn Iterator<Item = u64>| {
+                let chosen = runs.flat_map(|k| values(&axes, 5, k).0.into_iter().enumerate());
+                chosen.collect::<BTreeSet<_>>()
+            };
+            let samples = samples(&axes, 5, &(start..end));
+            assert!(samples.len() <= 1 + 3 + 2 + 4);
+            assert_eq!(
+                of(&mut samples.into_iter()),
+                of(&mut (start..end)),
+                "{start}..{end}"
+            );
+        }
     }
 }

@@ -30,7 +30,12 @@ use table::{Earlier, Rows, Table};
 pub(crate) fn run(args: &SweepArgs) -> Outcome {
     let scene = scene::open(&args.scene, &[], args.mode)?;
     let plan = Plan::new(args, &scene)?;
-    if let Some(out) = &args.out {
+    let out = args.out.as_deref();
+    let out = out.filter(|place| !files::is_stdout(place));
+    if args.out.is_some() && out.is_none() && (args.resume || args.force) {
+        fail!("--out - keeps nothing: neither --resume nor --force can be given");
+    }
+    if let Some(out) = out {
         files::apart(&[("the scene", Path::new(&args.scene)), ("--out", out)])?;
     }
     let earlier = match (args.resume, args.force) {
@@ -39,12 +44,13 @@ pub(crate) fn run(args: &SweepArgs) -> Outcome {
         _ => Earlier::Refuse,
     };
     // Before anything is written.
-    plan.check()?;
+    let jobs = args.jobs.map_or_else(cores, usize::from);
+    plan.check(jobs)?;
     let expected = Rows {
         heading: &plan.heading(),
         begins: &|row| plan.begins(row),
     };
-    let (mut table, (known, last)) = Table::open(args.out.as_deref(), &expected, earlier)?;
+    let (mut table, (known, last)) = Table::open(out, &expected, earlier)?;
     interrupt::watch("finishing the runs in hand")?;
     let left = plan.mine.start + known..plan.mine.end;
     if let Some(last) = last {
@@ -62,7 +68,6 @@ pub(crate) fn run(args: &SweepArgs) -> Outcome {
         next += u64::from(more);
         Ok(job)
     };
-    let jobs = args.jobs.map_or_else(cores, usize::from);
     let all = in_order(
         jobs,
         produced,
@@ -80,10 +85,11 @@ pub(crate) fn run(args: &SweepArgs) -> Outcome {
         },
     );
     progress.finish();
-    let whole = all.is_ok() && written == plan.mine.end - plan.mine.start;
-    table.finish(whole)?;
+    // Of a failure the table keeps the rows before it.
     all?;
-    if let Some(place) = &args.out {
+    let whole = written == plan.mine.end - plan.mine.start;
+    table.finish(whole)?;
+    if let Some(place) = out {
         say!(
             "{written} of {} runs in {}{}",
             plan.mine.end - plan.mine.start,
@@ -93,7 +99,7 @@ pub(crate) fn run(args: &SweepArgs) -> Outcome {
     }
     // With the last run in hand it came too late.
     if interrupt::asked() && !whole {
-        let hint = args.out.as_ref().map_or("", |_| "; --resume goes on");
+        let hint = out.map_or("", |_| "; --resume goes on");
         tell!("INTERRUPTED  {written} runs are done{hint}");
         return Ok(End::Interrupted);
     }
@@ -119,6 +125,11 @@ impl<'a> Plan<'a> {
             }
             if key == "seed" && args.seeds.is_some() {
                 fail!("--set seed and --seeds both say what the seed is");
+            }
+        }
+        for (k, column) in args.report.iter().enumerate() {
+            if args.report[..k].contains(column) {
+                fail!("--report {} is given twice", column.name());
             }
         }
         let seeds = args.seeds.unwrap_or(1);
@@ -192,13 +203,19 @@ impl<'a> Plan<'a> {
         Ok(built)
     }
 
-    /// Says what is wrong with the first run, and with all alike: keys, values, names of columns.
-    fn check(&self) -> Result<(), Failure> {
-        let built = self.build(self.mine.start)?;
-        for column in &self.args.report {
-            column.read(&built, &StepReport::default())?;
-        }
-        Ok(())
+    /// Says what is wrong with a value of any key, or with the name of a column.
+    ///
+    /// Each value is built in one run; some pairs of values may still not go together.
+    fn check(&self, jobs: usize) -> Result<(), Failure> {
+        let mut samples = axis::samples(&self.args.set, self.seeds, &self.mine).into_iter();
+        let check = |k| {
+            let built = self.build(k)?;
+            for column in &self.args.report {
+                column.read(&built, &StepReport::default())?;
+            }
+            Ok(())
+        };
+        in_order(jobs, || Ok(samples.next()), check, Ok)
     }
 
     /// The row of run `k`; `None` if it was interrupted.

@@ -17,6 +17,8 @@ pub(super) enum Table {
         place: PathBuf,
         part: PathBuf,
         rows: BufWriter<File>,
+        /// Bytes in the file.
+        length: u64,
     },
 }
 
@@ -55,6 +57,7 @@ impl Table {
         let mut name = place.as_os_str().to_owned();
         name.push(".part");
         let part = PathBuf::from(name);
+        files::refuse_other_than_file(&part)?;
         let (file, known) = match earlier {
             Earlier::Resume if part.exists() => kept(&part, expected)?,
             Earlier::Refuse if part.exists() => {
@@ -73,7 +76,9 @@ impl Table {
             }
             _ => (begin(&part, heading)?, (0, None)),
         };
+        let length = file.metadata();
         let table = Self::File {
+            length: length.map_err(|error| cannot("read", &part, &error))?.len(),
             place,
             part,
             rows: BufWriter::new(file),
@@ -89,7 +94,11 @@ impl Table {
                 Err(error) if is_closed_pipe(&error) => Ok(false),
                 Err(error) => Err(Failure::new(format!("cannot write to stdout: {error}"))),
             },
-            Self::File { part, rows, .. } => {
+            Self::File {
+                part, rows, length, ..
+            } => {
+                unchanged(part, *length)?;
+                *length += row.len() as u64 + 1;
                 // A run may take hours: each row is there when it is done.
                 let written = writeln!(rows, "{row}").and_then(|()| rows.flush());
                 written.map_err(|error| cannot("write", part, &error))?;
@@ -111,9 +120,13 @@ impl Table {
         match self {
             Self::Stdout(mut rows) => rows.flush().or_else(|error| lost(&error)),
             Self::File {
-                place, part, rows, ..
+                place,
+                part,
+                rows,
+                length,
             } => {
                 drop(rows);
+                unchanged(&part, length)?;
                 if whole {
                     fs::rename(&part, &place).map_err(|error| cannot("write", &place, &error))?;
                 }
@@ -146,6 +159,17 @@ fn lock(part: &Path, opened: io::Result<File>) -> Result<File, Failure> {
         fail!("{shown} was just finished by another sweep");
     }
     Ok(file)
+}
+
+/// Refuses to go on where the name leads to another file than the one of so many bytes: rows would be lost without a word.
+fn unchanged(part: &Path, length: u64) -> Result<(), Failure> {
+    match fs::metadata(part) {
+        Ok(about) if about.is_file() && about.len() == length => Ok(()),
+        _ => fail!(
+            "{} was removed or changed by something else while the sweep wrote it",
+            part.display()
+        ),
+    }
 }
 
 /// What an interrupted sweep left behind, cut after its last whole row.

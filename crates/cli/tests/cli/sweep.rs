@@ -92,6 +92,10 @@ fn what_is_wrong_gets_one_line() {
     let twice = ["--set", "body.ball.mass=1,2", "--set", "body.ball.mass=3"];
     refused(&twice, &["--set body.ball.mass is given twice"]);
     refused(&["--set", "seed=1,2", "--seeds", "2"], &["seed", "--seeds"]);
+    refused(
+        &["--report", "energy,exact,energy"],
+        &["--report energy is given twice"],
+    );
     refused(&["--set", "n=-1e308:1e308:3"], &["-1e308:1e308:3", "wider"]);
     fs::write(folder.path().join("other.csv"), "a,b\n1,2\n").unwrap();
     let merge = ["merge", "other.csv", "--out", "x.csv"];
@@ -105,6 +109,122 @@ fn what_is_wrong_gets_one_line() {
         fs::remove_file(folder.path().join("zero.csv")).unwrap();
     }
     assert_eq!(names(folder.path()), ["other.csv", "throw.toml"]);
+}
+
+#[test]
+fn later_values_are_checked_before_the_first_run() {
+    let folder = folder();
+    for (set, wrong) in [
+        ("body.ball.mass=1,2,-1", "body.ball.mass=-1"),
+        ("gravity=[0,-10],down", "gravity=down"),
+        ("body.ball.kind=dynamic,fixd", "body.ball.kind=fixd"),
+    ] {
+        for more in [
+            &[][..],
+            &["--out", "a.csv"],
+            &["--seeds", "9", "--shard", "3/3"],
+        ] {
+            // Combined with another one, so that it is the value of no first run.
+            let args = [
+                &["sweep", "throw.toml", "--set", set, "--set", "fps=30,60"][..],
+                more,
+            ];
+            carom_in(folder.path(), &args.concat()).refused(&[wrong]);
+        }
+    }
+    // A body that only some of the runs have.
+    let args = [
+        "sweep",
+        "throw.toml",
+        "--set",
+        "body.ball.name=ball,disc",
+        "--report",
+        "body.ball.x",
+    ];
+    carom_in(folder.path(), &args).refused(&["body.ball.x", "no body"]);
+    assert_eq!(names(folder.path()), ["throw.toml"]);
+    // Another slice has it.
+    let args = [
+        "sweep",
+        "throw.toml",
+        "--set",
+        "body.ball.mass=1,-1",
+        "--shard",
+        "1/2",
+    ];
+    carom_in(folder.path(), &args).done();
+}
+
+#[test]
+fn a_table_to_a_dash_goes_to_stdout() {
+    let folder = folder();
+    let table = sweep(folder.path(), &[]).done().out;
+    assert_eq!(sweep(folder.path(), &["--out", "-"]).done().out, table);
+    for flag in ["--resume", "--force"] {
+        sweep(folder.path(), &["--out", "-", flag]).refused(&["--out -", "--resume"]);
+    }
+    assert_eq!(names(folder.path()), ["throw.toml"]);
+}
+
+/// Sweeps for minutes, lets `change` act on the table once it has a row, and expects the sweep to end.
+#[cfg(unix)]
+#[track_caller]
+fn changed_under_a_sweep(change: impl FnOnce(&Path)) {
+    use std::process::{Command, Stdio};
+    let folder = folder();
+    let part = folder.path().join("a.csv.part");
+    let child = Command::new(crate::CAROM)
+        .args(["sweep", "throw.toml", "--seeds", "900000", "--jobs", "1"])
+        .args(["--out", "a.csv"])
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    while fs::metadata(&part).map_or(0, |about| about.len()) < 100 {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    change(&part);
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    let error = said.lines().find(|line| line.starts_with("error: "));
+    let named = error.is_some_and(|line| line.contains("a.csv.part was removed or changed"));
+    assert!(named, "{said}");
+    assert!(!folder.path().join("a.csv").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_table_that_something_else_removes_or_changes_ends_its_sweep() {
+    changed_under_a_sweep(|part| fs::remove_file(part).unwrap());
+    changed_under_a_sweep(|part| fs::write(part, "").unwrap());
+    changed_under_a_sweep(|part| {
+        fs::remove_file(part).unwrap();
+        fs::create_dir(part).unwrap();
+    });
+    changed_under_a_sweep(|part| {
+        let other = part.with_file_name("other");
+        fs::write(&other, "mine").unwrap();
+        fs::rename(other, part).unwrap();
+    });
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_in_the_place_of_a_table_is_refused_at_once() {
+    use std::process::Command;
+    let folder = folder();
+    let part = folder.path().join("a.csv.part");
+    for (make, kind) in [("mkfifo", "a pipe"), ("mkdir", "a directory")] {
+        let made = Command::new(make).arg(&part).status().unwrap();
+        assert!(made.success());
+        for flag in ["--resume", "--force"] {
+            sweep(folder.path(), &["--out", "a.csv", flag]).refused(&["a.csv.part", kind]);
+        }
+        let removed = Command::new("rm").arg("-r").arg(&part).status().unwrap();
+        assert!(removed.success());
+    }
 }
 
 #[test]

@@ -103,6 +103,43 @@ fn wrong_values_are_refused_before_anything_is_written() {
 }
 
 #[test]
+fn a_key_that_is_set_twice_is_refused() {
+    for args in [
+        &["simulate", "thesis", "--seconds", "0"][..],
+        &["render", "thesis", "--seconds", "0"],
+        &["check", "thesis"],
+    ] {
+        let set = ["--set", "seed=1", "--set", "fps=9", "--set", " seed =2"];
+        carom(&[args, &set].concat()).refused(&["--set seed is given twice"]);
+    }
+}
+
+#[test]
+fn every_exit_code_of_a_signal_is_in_the_help() {
+    let ran = carom(&["--help"]).done();
+    for code in ["129", "130", "143"] {
+        assert!(ran.out.contains(code), "{code}: {}", ran.out);
+    }
+}
+
+#[test]
+fn a_dash_is_stdout_or_refused_and_never_the_name_of_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |args: &[&str]| carom_in(folder.path(), args);
+    let simulate = ["simulate", "thesis", "--seconds", "0"];
+    let table = run(&simulate).done().out;
+    let ran = run(&[&simulate[..], &["--out", "-"]].concat()).done();
+    assert_eq!(ran.out, table);
+    assert!(ran.err.contains("state hash"), "{}", ran.err);
+    run(&[&simulate[..], &["--json", "-"]].concat()).refused(&["cannot write -", "./-"]);
+    run(&["sweep", "thesis", "--seconds", "0", "--out", "a.csv"]).done();
+    run(&["merge", "a.csv", "--out", "-"]).refused(&["--out -", "./-"]);
+    run(&["merge", "frames", "--out", "-"]).refused(&["--out -", "./-"]);
+    run(&[&simulate[..], &["--out", "./-"]].concat()).done();
+    assert_eq!(names(folder.path()), ["-", "a.csv"]);
+}
+
+#[test]
 fn a_reader_that_leaves_is_no_crash() {
     let mut child = Command::new(crate::CAROM)
         .args(["simulate", "thesis", "--seconds", "20"])
