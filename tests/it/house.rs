@@ -204,9 +204,9 @@ fn tree<'a>(before: &str, code: &'a str, found: &mut BTreeSet<String>) -> &'a st
 /// The folder that each name at the crate's root comes from; none where it comes from another crate.
 fn names_at_the_root(lib: &str) -> BTreeMap<String, String> {
     let mut names = BTreeMap::new();
-    for (at, _) in lib.match_indices("pub use ") {
+    for (at, _) in lib.match_indices(" use ") {
         let mut found = BTreeSet::new();
-        tree("", &lib[at + "pub use ".len()..], &mut found);
+        tree("", &lib[at + " use ".len()..], &mut found);
         for path in found {
             let (first, _) = path.split_once("::").unwrap_or((&path, ""));
             let name = path.rsplit("::").next().expect("a split has a last part");

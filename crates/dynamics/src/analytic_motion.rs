@@ -8,9 +8,9 @@
 use carom_geometry::Aabb;
 use carom_math::SimTime;
 
-use crate::World;
 use crate::events::free::Cause;
 use crate::model::narrow::look;
+use crate::{PairIx, World};
 
 impl World {
     /// Islands that came to move since the last time begin their motion; what goes otherwise than they say joins the engine. Whether
@@ -41,7 +41,7 @@ impl World {
         let until = group.until.unwrap_or(SimTime::NEVER);
         group.carry(&self.bodies, &mut self.pairs);
         let members = group.indices();
-        let touches: Vec<u32> = group.touches.iter().map(|touch| touch.pair).collect();
+        let touches: Vec<PairIx> = group.touches.iter().map(|touch| touch.pair).collect();
         for &index in &members {
             self.end_unsettled(index);
             for pair in self.bodies.get(index).pairs.clone() {
@@ -122,7 +122,7 @@ impl World {
 
     /// Gives an island in analytic motion that a pair holds together back, before the pair goes: all that
     /// it touches is looked at then.
-    pub(crate) fn hand_back_by(&mut self, pair: u32, time: SimTime) {
+    pub(crate) fn hand_back_by(&mut self, pair: PairIx, time: SimTime) {
         let Some(ends) = self.pairs.find(pair).map(|pair| pair.bodies) else {
             return;
         };

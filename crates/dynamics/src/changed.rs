@@ -9,7 +9,7 @@ use crate::model::graph::neighbours;
 use crate::model::narrow::look;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pair;
-use crate::{EventKind, Mode, World};
+use crate::{EventKind, Mode, PairIx, World};
 
 impl World {
     /// A body with a new motion: its events are predicted again, and so are those of the contact group that it was or is in.
@@ -202,7 +202,7 @@ impl World {
     }
 
     /// Takes a pair out and says so if it touched.
-    pub(crate) fn part(&mut self, place: u32, time: SimTime) {
+    pub(crate) fn part(&mut self, place: PairIx, time: SimTime) {
         if let Some(mut pair) = self.take_pair(place, time) {
             pair.touching = false;
             self.events.tell_touch(&self.bodies, &mut pair, time);
@@ -210,7 +210,7 @@ impl World {
     }
 
     /// Takes a pair out; a group that it held together is taken apart.
-    pub(crate) fn take_pair(&mut self, place: u32, time: SimTime) -> Option<Pair> {
+    pub(crate) fn take_pair(&mut self, place: PairIx, time: SimTime) -> Option<Pair> {
         self.hand_back_by(place, time);
         let pair = part(&mut self.bodies, &mut self.pairs, place)?;
         self.loosen(place, pair.bodies, time);

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use carom_math::SimTime;
 
 use crate::model::narrow::look;
-use crate::{EventKind, World};
+use crate::{EventKind, PairIx, World};
 
 impl World {
     /// Takes a group apart; its members keep their motions until they are given others.
@@ -70,7 +70,7 @@ impl World {
     }
 
     /// A pair is no more: a group that it held together is taken apart.
-    pub(crate) fn loosen(&mut self, pair: u32, bodies: (u32, u32), time: SimTime) {
+    pub(crate) fn loosen(&mut self, pair: PairIx, bodies: (u32, u32), time: SimTime) {
         for index in [bodies.0, bodies.1] {
             let place = self.bodies.get(index).membership.group;
             if (self.closed.get(place)).is_some_and(|group| group.touches_by(pair)) {

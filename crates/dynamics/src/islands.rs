@@ -14,7 +14,7 @@ use crate::analytic::islands::{give_motions, kept};
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, land};
 use crate::analytic::touching::{Gathered, Looks, gather};
 use crate::events::resolve::PairImpact;
-use crate::{BodyKind, ContactMode, Mode, World};
+use crate::{BodyKind, ContactMode, Mode, PairIx, World};
 
 impl World {
     /// Closed forms for bodies that wait for their method, and for what their groups hold.
@@ -28,7 +28,7 @@ impl World {
     }
 
     /// A closed form for the group of a pair that touches.
-    fn close_group_of(&mut self, place: u32, time: SimTime) {
+    fn close_group_of(&mut self, place: PairIx, time: SimTime) {
         if !self.bodies.pull.fields.is_empty() {
             return;
         }

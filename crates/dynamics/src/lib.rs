@@ -72,6 +72,8 @@ pub use values::report::{Refusal, StepReport};
 pub use values::settings::{Mode, PairSearch, Settings, Sleep, Softness};
 pub use world::World;
 
+pub(crate) use values::ix::{ImpactIx, Ix, PairIx};
+
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadmeDocTests;

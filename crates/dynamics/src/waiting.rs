@@ -5,12 +5,12 @@ use carom_collision::{TimeOfImpact, time_of_impact};
 use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
-use crate::World;
 use crate::broad::window::box_ahead;
 use crate::events::resolve::PairImpact;
 use crate::model::ghost::look_at;
 use crate::model::narrow::{NOISE, TOUCH, opening_speed, pace, rest_speed};
 use crate::store::pairs::PairPoint;
+use crate::{PairIx, World};
 
 impl World {
     /// Gives all that waits at an instant its method, once all that happens at that instant has happened; whether something waited.
@@ -38,7 +38,7 @@ impl World {
     }
 
     /// Contacts of all that waits for its method; begins and ends of touch, and overlaps. Places of the pairs.
-    fn look_at_held(&mut self, time: SimTime) -> Vec<u32> {
+    fn look_at_held(&mut self, time: SimTime) -> Vec<PairIx> {
         let bodies = &self.bodies;
         let all = self.unsettled.iter();
         let all = all.flat_map(|index| &bodies.get(*index).pairs);
@@ -59,7 +59,7 @@ impl World {
 
     /// Strikes pairs that close faster than rest where they touch: a body that landed on one side may strike another one. Whether
     /// some do.
-    fn strike_held_pairs(&mut self, places: Vec<u32>, time: SimTime) -> bool {
+    fn strike_held_pairs(&mut self, places: Vec<PairIx>, time: SimTime) -> bool {
         let mut strikes = false;
         for place in places {
             if let Some(impact) = self.approach_of(place, time) {
@@ -71,7 +71,7 @@ impl World {
     }
 
     /// The first contact of a pair that closes faster than rest where it touches.
-    fn approach_of(&self, place: u32, time: SimTime) -> Option<PairImpact> {
+    fn approach_of(&self, place: PairIx, time: SimTime) -> Option<PairImpact> {
         let pair = self.pairs.find(place)?;
         let [a, b] = [pair.bodies.0, pair.bodies.1].map(|index| self.bodies.get(index));
         if pair.buried || a.in_engine() || b.in_engine() {

@@ -3,6 +3,7 @@
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
+use crate::PairIx;
 use crate::analytic::modes::{GroupMove, NotMine, Touch, hold, solve_modes, stand};
 use crate::impact::ImpactBody;
 use crate::model::approach::{Approach, approach, opening};
@@ -30,7 +31,7 @@ pub(crate) struct Gathered {
     pub(crate) pulls: Vec<(Vec2, f64)>,
     pub(crate) touches: Vec<Touch>,
     /// Pair and contact of each touch.
-    pub(crate) pairs: Vec<(u32, usize)>,
+    pub(crate) pairs: Vec<(PairIx, usize)>,
     /// Speed below which what opens there comes back at once, because turning presses, for each touch, in m/s.
     presses: Vec<f64>,
     /// Fastest approach of a touch, in m/s; 0 if it is no more than rounding.
@@ -202,7 +203,7 @@ fn touches_of(
     bodies: &Bodies,
     pairs: &mut Pairs,
     found: &mut Gathered,
-    place: u32,
+    place: PairIx,
     time: SimTime,
     looks: Looks,
 ) -> Option<usize> {

@@ -20,7 +20,7 @@ use crate::values::profile::Stopwatch;
 use crate::work::Work;
 use crate::{
     Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, Events, Filter, Material,
-    Mode, Momentum, Settings, SettingsError, StepProfile, StepReport, World,
+    Mode, Momentum, PairIx, Settings, SettingsError, StepProfile, StepReport, World,
 };
 
 /// So many of the shapes that came last are looked through for one that is alike.
@@ -206,7 +206,7 @@ impl World {
     /// Contacts of pairs in these places, and those that the engine has: all, or those of a body.
     fn contacts_in(
         &self,
-        mut places: Vec<u32>,
+        mut places: Vec<PairIx>,
         of: Option<u32>,
     ) -> impl Iterator<Item = Contact> + use<'_> {
         places.retain(|place| self.pairs.get(*place).told);
@@ -217,7 +217,7 @@ impl World {
         touching.chain(stepped)
     }
 
-    fn contacts_at(&self, place: u32) -> Vec<Contact> {
+    fn contacts_at(&self, place: PairIx) -> Vec<Contact> {
         let pair = self.pairs.get(place);
         let now = (self.closed).moving_pair_at(&self.bodies, pair, place, self.clock.now);
         let pair = now.as_ref().unwrap_or(pair);

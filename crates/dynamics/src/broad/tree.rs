@@ -9,7 +9,7 @@ use carom_math::{SimTime, Vec2};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;
-use crate::{BodyId, BodyKind, PairMaterial, PairSearch};
+use crate::{BodyId, BodyKind, PairIx, PairMaterial, PairSearch};
 
 /// Boxes are stretched along the motion over this many sub-steps, so that a body that keeps its
 /// course is looked for again only now and then. Wider boxes find more pairs in vain.
@@ -261,7 +261,7 @@ fn ids_of(bodies: &Bodies, (one, other): (u32, u32)) -> (BodyId, BodyId) {
 }
 
 /// Takes a pair out of the store and out of its bodies' lists.
-pub(crate) fn part(bodies: &mut Bodies, pairs: &mut Pairs, place: u32) -> Option<Pair> {
+pub(crate) fn part(bodies: &mut Bodies, pairs: &mut Pairs, place: PairIx) -> Option<Pair> {
     let pair = pairs.remove(place)?;
     for index in [pair.bodies.0, pair.bodies.1] {
         let known = &mut bodies.get_mut(index).pairs;

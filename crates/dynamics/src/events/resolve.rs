@@ -8,7 +8,7 @@ use crate::model::narrow::{NOISE, opening_speed, pace, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::values::event::EventKind;
-use crate::{Events, PairMaterial, Settings, StepReport};
+use crate::{Events, PairIx, PairMaterial, Settings, StepReport};
 
 /// What the impacts of one pair may spend in a sub-step before the engine takes its bodies: what rattles with e = 0 faster than a
 /// thirtieth of a sub-step is closer to rest than to flight.
@@ -26,7 +26,7 @@ pub(crate) fn price(material: &PairMaterial) -> f64 {
 pub(crate) struct PairImpact {
     pub(crate) time: SimTime,
     /// Place of the pair.
-    pub(crate) pair: u32,
+    pub(crate) pair: PairIx,
     /// Unit normal from A to B.
     pub(crate) normal: Vec2,
     /// One point, or both ends of a common stretch, in m.

@@ -20,7 +20,7 @@ use crate::model::ghost::look_at;
 use crate::model::narrow::{TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
-use crate::{PairMaterial, Settings};
+use crate::{PairIx, PairMaterial, Settings};
 
 /// Sweeps before the rest is left to the next look: what still closes then is struck again.
 const SWEEPS: usize = 300;
@@ -52,7 +52,7 @@ const CLOSES: f64 = 1.0 / 64.0;
 /// A contact in a shock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Strike {
-    pub(crate) pair: u32,
+    pub(crate) pair: PairIx,
     pub(crate) contact: ImpactContact,
     /// Places of A and B in the shock.
     ends: (usize, usize),
@@ -91,7 +91,7 @@ pub(crate) struct Shock {
     pub(crate) strikes: Vec<Strike>,
     pub(crate) bodies: Vec<Shaken>,
     /// Pairs with contacts updated at this instant, and the speeds that count as rest there.
-    looked: Vec<(u32, f64)>,
+    looked: Vec<(PairIx, f64)>,
     /// Slowest rest speed of the pairs, in m/s.
     rest: f64,
     /// The limit of impacts that came ever faster: nothing is given back.
@@ -147,7 +147,7 @@ impl Shock {
     pub(crate) fn add(
         &mut self,
         bodies: &Bodies,
-        pair: u32,
+        pair: PairIx,
         (i, j): (u32, u32),
         (point, normal): (Vec2, Vec2),
         material: PairMaterial,
@@ -193,7 +193,7 @@ impl Shock {
         self.strikes.len() > known
     }
 
-    fn spread_to(&mut self, bodies: &Bodies, pairs: &mut Pairs, place: u32) {
+    fn spread_to(&mut self, bodies: &Bodies, pairs: &mut Pairs, place: PairIx) {
         let mut pair = pairs.get(place);
         // What bounces on its own will be struck in its turn; what lasts is part of this, and what collapses with it.
         let lasts = pair.lasting

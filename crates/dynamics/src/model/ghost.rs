@@ -13,6 +13,7 @@ use carom_collision::{Hull, contacts};
 use carom_math::{Pose, SimTime, Vec2, cross};
 
 use super::narrow::{TOUCH, look, note_touch};
+use crate::PairIx;
 use crate::store::bodies::Bodies;
 use crate::store::moved::moves;
 use crate::store::pairs::{Pair, Pairs};
@@ -120,7 +121,7 @@ impl Meeting {
 pub(crate) fn look_at<'a>(
     bodies: &Bodies,
     pairs: &'a mut Pairs,
-    place: u32,
+    place: PairIx,
     time: SimTime,
 ) -> &'a mut Pair {
     look(bodies, pairs.get_mut(place), time);

@@ -1,5 +1,6 @@
 //! Which bodies touch, and which hang together.
 
+use crate::PairIx;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 
@@ -24,7 +25,7 @@ pub(crate) fn pair_of(
     pairs: &Pairs,
     index: u32,
     (first, second): (u32, u32),
-) -> Option<u32> {
+) -> Option<PairIx> {
     let mut places = bodies.get(index).pairs.iter().copied();
     places.find(|place| {
         let known = pairs.shapes(*place);

@@ -5,7 +5,7 @@
 //! [`pairs`] (pairs of shapes, and what they remember). The others are parts of these: of a body
 //! [`mass`], [`membership`] in an island, the [`course`] of a free one ([`swept`], [`zeno`]), what is [`uncommon`]; of all bodies
 //! [`pull`], [`history`] and [`moved`]. [`tell`] has the events that follow from a pair, [`clock`] the grid of
-//! sub-steps; [`slots`] are numbered places, as pairs and islands have them.
+//! sub-steps; [`slots`] are lists by number, and numbered places as pairs and islands have them.
 
 pub(crate) mod bodies;
 pub(crate) mod clock;

@@ -5,8 +5,8 @@ use carom_collision::FeatureId;
 use carom_math::{SimTime, Vec2};
 
 use super::clock::whole;
-use super::slots::Slots;
-use crate::{ContactMode, PairMaterial};
+use super::slots::{List, Slots};
+use crate::{ContactMode, PairIx, PairMaterial};
 
 /// Two colliders of different bodies with overlapping boxes; the lower body comes first.
 #[derive(Clone, Debug, Default)]
@@ -108,52 +108,50 @@ pub(crate) struct PairPoint {
 /// The pairs of a world.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
-    list: Slots<Pair>,
+    list: Slots<PairIx, Pair>,
     /// By place: shapes of pairs, to be read without the rest.
-    shapes: Vec<(u32, u32)>,
+    shapes: List<PairIx, (u32, u32)>,
     /// Places of pairs that have not been looked at yet.
-    pub(crate) fresh: Vec<u32>,
+    pub(crate) fresh: Vec<PairIx>,
 }
 
 impl Pairs {
-    pub(crate) fn insert(&mut self, pair: Pair) -> u32 {
+    pub(crate) fn insert(&mut self, pair: Pair) -> PairIx {
         let shapes = pair.colliders;
         let place = self.list.insert(pair);
-        let at = place as usize;
-        self.shapes.resize(self.shapes.len().max(at + 1), shapes);
-        self.shapes[at] = shapes;
+        *self.shapes.grown(place, shapes) = shapes;
         self.fresh.push(place);
         place
     }
 
-    pub(crate) fn remove(&mut self, place: u32) -> Option<Pair> {
+    pub(crate) fn remove(&mut self, place: PairIx) -> Option<Pair> {
         self.list.remove(place)
     }
 
     /// The pair of a place, if there is one.
-    pub(crate) fn find(&self, place: u32) -> Option<&Pair> {
+    pub(crate) fn find(&self, place: PairIx) -> Option<&Pair> {
         self.list.get(place)
     }
 
     /// # Panics
     /// If the place is empty: lists of places and the store have parted.
-    pub(crate) fn get(&self, place: u32) -> &Pair {
+    pub(crate) fn get(&self, place: PairIx) -> &Pair {
         self.list.get(place).expect("a listed pair is there")
     }
 
     /// # Panics
     /// If the place is empty: lists of places and the store have parted.
-    pub(crate) fn get_mut(&mut self, place: u32) -> &mut Pair {
+    pub(crate) fn get_mut(&mut self, place: PairIx) -> &mut Pair {
         self.list.get_mut(place).expect("a listed pair is there")
     }
 
     /// What a pair is of, without the rest of it.
-    pub(crate) fn shapes(&self, place: u32) -> (u32, u32) {
-        self.shapes[place as usize]
+    pub(crate) fn shapes(&self, place: PairIx) -> (u32, u32) {
+        self.shapes[place]
     }
 
     /// The other shape of a pair that this shape is in.
-    pub(crate) fn partner(&self, place: u32, shape: u32) -> Option<u32> {
+    pub(crate) fn partner(&self, place: PairIx, shape: u32) -> Option<u32> {
         match self.shapes(place) {
             (one, other) | (other, one) if one == shape => Some(other),
             _ => None,
@@ -161,7 +159,7 @@ impl Pairs {
     }
 
     /// These places in order of colliders, each once.
-    pub(crate) fn by_colliders(&self, places: impl IntoIterator<Item = u32>) -> Vec<u32> {
+    pub(crate) fn by_colliders(&self, places: impl IntoIterator<Item = PairIx>) -> Vec<PairIx> {
         let keyed = places
             .into_iter()
             .map(|place| (self.get(place).colliders, place));
@@ -172,7 +170,7 @@ impl Pairs {
     }
 
     /// Places of all pairs in order of colliders.
-    pub(crate) fn in_order(&self) -> Vec<u32> {
+    pub(crate) fn in_order(&self) -> Vec<PairIx> {
         self.by_colliders(self.list.iter().map(|(place, _)| place))
     }
 }

@@ -15,7 +15,7 @@ use super::uncommon::{Lag, Uncommon};
 use crate::impact::ImpactBody;
 use crate::law::flight::Flight;
 use crate::values::error::BodyError;
-use crate::{BodyDef, BodyId, BodyKind, Filter, Material, Mode};
+use crate::{BodyDef, BodyId, BodyKind, Filter, Material, Mode, PairIx};
 use carom_collision::NodeId;
 
 /// All that a world keeps of one body. Nothing else stores a pose.
@@ -55,7 +55,7 @@ pub(crate) struct BodyState {
     /// The contact group in closed form that it belongs to.
     pub(crate) membership: Membership,
     /// Pairs of its colliders with others.
-    pub(crate) pairs: Vec<u32>,
+    pub(crate) pairs: Vec<PairIx>,
 }
 
 /// A shape of a body; what impacts ask comes first.

@@ -12,6 +12,7 @@ pub(crate) mod field;
 pub(crate) mod filter;
 pub(crate) mod force;
 pub(crate) mod id;
+pub(crate) mod ix;
 pub(crate) mod ledger;
 pub(crate) mod material;
 pub(crate) mod profile;

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use carom_math::SimTime;
 
 use super::store::{Closed, Group};
-use crate::ContactMode;
 use crate::law::flight::Flight;
 use crate::model::narrow::look;
 use crate::motion::flight::begin_held_piece;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
+use crate::{ContactMode, PairIx};
 
 impl Group {
     /// Whether its members go on as its mode says, and nothing lies deep in one of them.
@@ -25,7 +25,11 @@ impl Group {
     }
 
     /// Parts of a pair in contacts that its mode holds.
-    pub(crate) fn held_parts(&self, place: u32, pair: &Pair) -> impl Iterator<Item = (u32, u32)> {
+    pub(crate) fn held_parts(
+        &self,
+        place: PairIx,
+        pair: &Pair,
+    ) -> impl Iterator<Item = (u32, u32)> {
         let touches = self.touches.iter();
         touches
             .filter(move |touch| touch.pair == place && touch.moved.mode != ContactMode::Open)
@@ -33,7 +37,7 @@ impl Group {
     }
 
     /// Whether its mode lets a contact of two parts of a pair open.
-    pub(crate) fn opens(&self, place: u32, pair: &Pair, (a, b): (usize, usize)) -> bool {
+    pub(crate) fn opens(&self, place: PairIx, pair: &Pair, (a, b): (usize, usize)) -> bool {
         self.touches.iter().any(|touch| {
             let contact = pair.contacts.get(touch.contact);
             let parts = contact.map(|contact| contact.parts);
@@ -69,7 +73,7 @@ impl Closed {
         &self,
         bodies: &Bodies,
         pair: &Pair,
-        place: u32,
+        place: PairIx,
         time: SimTime,
     ) -> Option<Pair> {
         let mut ends = [pair.bodies.0, pair.bodies.1].into_iter();

@@ -14,7 +14,7 @@ use crate::store::bodies::Bodies;
 use crate::store::membership::Membership;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::slots::{Slots, grown};
-use crate::{ContactMode, Mode};
+use crate::{ContactMode, Mode, PairIx};
 
 /// What is no longer than this is one instant, in s.
 const INSTANT: f64 = 1e-12;
@@ -37,7 +37,7 @@ const OFTEN_EXACT: u32 = 4096;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Closed {
     /// With the stamp that tells a group from those that had its place before.
-    groups: Slots<(u64, Group)>,
+    groups: Slots<u32, (u64, Group)>,
     /// Stale entries are dropped when they come up: a group's stamp tells. Before a group changes they are looks at what it opened.
     changes: BinaryHeap<Reverse<(SimTime, u32, u64)>>,
     stamp: u64,
@@ -97,14 +97,14 @@ impl Group {
     }
 
     /// Pairs of which its mode holds no contact.
-    pub(crate) fn opened(&self) -> Vec<u32> {
+    pub(crate) fn opened(&self) -> Vec<PairIx> {
         let is_open = |touch: &&Kept| touch.moved.mode == ContactMode::Open;
-        let holds = |pair: u32| {
+        let holds = |pair: PairIx| {
             self.touches
                 .iter()
                 .any(|touch| touch.pair == pair && !is_open(&touch))
         };
-        let mut pairs: Vec<u32> = self
+        let mut pairs: Vec<PairIx> = self
             .touches
             .iter()
             .filter(is_open)
@@ -123,7 +123,7 @@ impl Group {
     }
 
     /// Whether a pair is among its touches.
-    pub(crate) fn touches_by(&self, pair: u32) -> bool {
+    pub(crate) fn touches_by(&self, pair: PairIx) -> bool {
         self.touches.iter().any(|touch| touch.pair == pair)
     }
 
@@ -142,7 +142,7 @@ impl Group {
     }
 
     /// The pair with a corner that lands at the next change, the normal from A to B, and the point.
-    pub(crate) fn landing(&self) -> Option<(u32, Vec2, Vec2)> {
+    pub(crate) fn landing(&self) -> Option<(PairIx, Vec2, Vec2)> {
         let Some(Limit::Corner {
             contact,
             normal,
@@ -158,7 +158,7 @@ impl Group {
 /// A touch of a group while its mode lasts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Kept {
-    pub(crate) pair: u32,
+    pub(crate) pair: PairIx,
     pub(crate) contact: usize,
     pub(crate) moved: TouchMove,
     /// How fast the slip grows, in m/s².

@@ -8,7 +8,7 @@ use crate::model::graph::pair_of;
 use crate::model::narrow::{NOISE, SUNK, TOUCH, look, opening_speed, pace};
 use crate::motion::flight::fly;
 use crate::store::pairs::PairContact;
-use crate::{BodyKind, Mode, World};
+use crate::{BodyKind, Mode, PairIx, World};
 
 /// Landings of two bodies on each other at one instant.
 const LANDINGS: u32 = 16;
@@ -94,7 +94,7 @@ impl World {
         });
     }
 
-    fn pair_of(&self, impact: &Foreseen) -> Option<u32> {
+    fn pair_of(&self, impact: &Foreseen) -> Option<PairIx> {
         pair_of(&self.bodies, &self.pairs, impact.bodies.0, impact.colliders)
     }
 
@@ -124,9 +124,9 @@ impl World {
 
     /// Forgets the pairs of a body that its boxes have left: a free body's reach farther.
     fn part_far(&mut self, index: u32, time: SimTime) {
-        let keeps = |place: &u32| self.broad.keeps(&self.bodies, self.pairs.shapes(*place));
+        let keeps = |place: &PairIx| self.broad.keeps(&self.bodies, self.pairs.shapes(*place));
         let pairs = self.bodies.get(index).pairs.iter();
-        let far: Vec<u32> = pairs.filter(|place| !keeps(place)).copied().collect();
+        let far: Vec<PairIx> = pairs.filter(|place| !keeps(place)).copied().collect();
         for place in far {
             self.part(place, time);
         }

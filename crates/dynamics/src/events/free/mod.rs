@@ -37,6 +37,7 @@ use circle::Registered;
 pub(crate) use foresee::Cause;
 pub(crate) use foreseen::Foreseen;
 
+use crate::ImpactIx;
 use queue::{Queue, What};
 
 impl Course {
@@ -82,7 +83,7 @@ pub(crate) struct FreeBodies {
     horizons: Vec<SimTime>,
     queue: Queue,
     aside: Aside,
-    impacts: Slots<Foreseen>,
+    impacts: Slots<ImpactIx, Foreseen>,
     /// Mark of the last search that met a body.
     seen: Vec<u32>,
     mark: u32,

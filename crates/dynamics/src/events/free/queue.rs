@@ -3,6 +3,7 @@
 use core::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
+use crate::{ImpactIx, Ix};
 use carom_math::SimTime;
 
 /// What happens at an entry's time, if the bodies still move as they did; at equal times in this order, impacts by their slots.
@@ -23,13 +24,13 @@ impl What {
     /// Body `a` strikes body `b`, as the first slot says.
     const IMPACT: Self = Self(5);
 
-    pub(super) const fn impact(slot: u32) -> Self {
-        Self(Self::IMPACT.0 + slot)
+    pub(super) fn impact(slot: ImpactIx) -> Self {
+        Self(Self::IMPACT.0 + slot.number())
     }
 
     /// Of an impact.
-    pub(super) const fn slot(self) -> Option<u32> {
-        self.0.checked_sub(Self::IMPACT.0)
+    pub(super) fn slot(self) -> Option<ImpactIx> {
+        self.0.checked_sub(Self::IMPACT.0).map(ImpactIx::new)
     }
 }
 
@@ -259,7 +260,7 @@ mod tests {
     #[test]
     fn four_bytes_hold_whatever_is_ahead_and_its_order() {
         let all = [What::HORIZON, What::GROUND, What::NEAR, What::NEAR_SHAPE];
-        let slots = [0, 1, (1 << 29) - 1];
+        let slots = [0, 1, (1 << 29) - 1].map(ImpactIx::new);
         let all = [&all[..], &[What::COLLAPSE], &slots.map(What::impact)].concat();
         assert!(all.is_sorted() && all.windows(2).all(|two| two[0] != two[1]));
         assert!(all[..5].iter().all(|what| what.slot().is_none()));

@@ -13,7 +13,6 @@ use super::circle::Circle;
 use super::foresee::{Cause, both_in_grid};
 use super::strike::approach_speed;
 use super::turning::first_piece;
-use crate::World;
 use crate::broad::window::Window;
 use crate::model::approach::CLOSED;
 use crate::model::ghost::Meeting;
@@ -21,6 +20,7 @@ use crate::model::graph::pair_of;
 use crate::model::narrow::{TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
 use crate::motion::first_touch::{first_touch, first_touch_of_parts};
 use crate::store::few::Few;
+use crate::{PairIx, World};
 
 /// Part of a sub-step after which a contact that opens with t³ has a gap that a search sees, of some 1e-13 of a size.
 const OPENED: f64 = 1.0 / 64.0;
@@ -258,7 +258,7 @@ impl World {
     }
 
     /// The pair of two shapes that an island in analytic motion has: that of a contact, or of one that is just over.
-    pub(super) fn moving_pair(&self, ends: (u32, u32), shapes: (u32, u32)) -> Option<u32> {
+    pub(super) fn moving_pair(&self, ends: (u32, u32), shapes: (u32, u32)) -> Option<PairIx> {
         let index = self.moving_end(ends)?;
         pair_of(&self.bodies, &self.pairs, index, shapes)
     }
@@ -270,16 +270,16 @@ impl World {
     }
 
     /// Whether a mode holds all that may touch of the shapes of a pair.
-    pub(super) fn is_held_by_mode(&self, place: u32) -> bool {
+    pub(super) fn is_held_by_mode(&self, place: PairIx) -> bool {
         is_all_held(&self.solids_of(place), &self.held_parts(place))
     }
 
-    fn solids_of(&self, place: u32) -> [Arc<Shape>; 2] {
+    fn solids_of(&self, place: PairIx) -> [Arc<Shape>; 2] {
         self.bodies.solids(self.pairs.shapes(place)).map(Arc::clone)
     }
 
     /// Parts of a pair in contacts that change with the mode of an island alone.
-    fn held_parts(&self, place: u32) -> Vec<(u32, u32)> {
+    fn held_parts(&self, place: PairIx) -> Vec<(u32, u32)> {
         let pair = self.pairs.get(place);
         let mut held = Vec::new();
         for index in [pair.bodies.0, pair.bodies.1] {
@@ -291,7 +291,7 @@ impl World {
     }
 
     /// Whether a contact of two parts opens in a mode that begins now: where no force is left it does so with t³ alone.
-    fn opens_now(&self, place: u32, parts: (usize, usize), time: SimTime) -> bool {
+    fn opens_now(&self, place: PairIx, parts: (usize, usize), time: SimTime) -> bool {
         let pair = self.pairs.get(place);
         [pair.bodies.0, pair.bodies.1].into_iter().any(|index| {
             let group = self.closed.group_of(&self.bodies, index);
@@ -303,7 +303,7 @@ impl World {
     ///
     /// What closes by rounding alone, or is a hidden side of what bears it, is none. A search that ends with it is made again a sub-step
     /// later; one that sees no end of a contact that begins to open sooner, once that has a gap.
-    fn seek_beside_mode(&mut self, place: u32, time: SimTime, length: f64) -> bool {
+    fn seek_beside_mode(&mut self, place: PairIx, time: SimTime, length: f64) -> bool {
         let (solids, held) = (self.solids_of(place), self.held_parts(place));
         if is_all_held(&solids, &held) {
             return false;

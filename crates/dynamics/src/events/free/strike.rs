@@ -11,7 +11,7 @@ use crate::impact::{ImpactBody, ImpactContact, resolve};
 use crate::model::narrow::NOISE;
 use crate::store::clock::whole;
 use crate::store::zeno::ZenoSeries;
-use crate::{BodyKind, EventKind, Mode, PairMaterial, World};
+use crate::{BodyKind, EventKind, Ix, Mode, PairIx, PairMaterial, World};
 
 /// What the impacts of one free body may spend in a tick before the solver takes the rest, in losses of
 /// relative speed.
@@ -179,7 +179,7 @@ impl World {
         let mut shock = Shock::new(time);
         for contact in struck {
             let at = (contact.point, contact.normal);
-            shock.add(&self.bodies, u32::MAX, impact.bodies, at, material, 0.0);
+            shock.add(&self.bodies, PairIx::NONE, impact.bodies, at, material, 0.0);
         }
         self.strike_together(shock, time);
     }

@@ -7,11 +7,11 @@ use carom_math::SimTime;
 use super::Foreseen;
 use super::queue::Entry;
 use super::strike::{approach_speed, contacts_of, pace};
-use crate::World;
 use crate::events::free::Cause;
 use crate::events::shock::Shock;
 use crate::impact::ImpactBody;
 use crate::store::state::BodyState;
+use crate::{Ix, PairIx, World};
 
 /// Instants that differ by less are one, as a fraction of the way to them over the speed: impacts make
 /// differences of roundings larger, by a decade each.
@@ -194,7 +194,7 @@ impl World {
             return;
         }
         let mut shock = Shock::new(time);
-        for (pair, impact) in (0..u32::MAX).rev().zip(impacts) {
+        for (pair, impact) in (0..u32::MAX).rev().map(PairIx::new).zip(impacts) {
             let before = self.ends_of(impact, time);
             self.count_in_series(impact, time, approach_speed(impact, &before), 0.0);
             let material = self.material_of(impact);
