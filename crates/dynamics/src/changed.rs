@@ -9,7 +9,7 @@ use crate::model::graph::neighbours;
 use crate::model::narrow::look;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pair;
-use crate::{EventKind, Mode, PairIx, World};
+use crate::{ColliderIx, EventKind, Mode, PairIx, World};
 
 impl World {
     /// A body with a new motion: its events are predicted again, and so are those of the contact group that it was or is in.
@@ -47,14 +47,14 @@ impl World {
     pub(crate) fn show(&mut self, index: u32, time: SimTime) {
         let mut free = Vec::new();
         for &at in &self.bodies.get(index).colliders.clone() {
-            let bounds = self.bodies.colliders[at as usize].fat;
+            let bounds = self.bodies.colliders[at].fat;
             self.free.overlapping(&self.bodies, bounds, &mut free);
             for &body in &free {
                 self.approach_shape(body, at, time, Cause::Arrived);
             }
             // Those in the tree are few and large.
             for other in self.broad.in_tree(&self.bodies, bounds) {
-                let owner = self.bodies.colliders[other as usize].body;
+                let owner = self.bodies.colliders[other].body;
                 if self.bodies.get(owner).goes_by_events() {
                     self.approach_shape(owner, at, time, Cause::Arrived);
                 }
@@ -164,7 +164,7 @@ impl World {
         };
         for slot in 0..self.bodies.get(index).colliders.len() {
             let at = self.bodies.get(index).colliders[slot];
-            if self.bodies.colliders[at as usize].node.is_some() {
+            if self.bodies.colliders[at].node.is_some() {
                 self.broad
                     .meet(&mut self.bodies, &mut self.pairs, at, Some(&free));
             }
@@ -172,7 +172,7 @@ impl World {
     }
 
     /// Pairs of a free body with shapes of bodies that wait for their method.
-    pub(crate) fn pair_free_body(&mut self, index: u32, shapes: &[u32]) {
+    pub(crate) fn pair_free_body(&mut self, index: u32, shapes: &[ColliderIx]) {
         for slot in 0..self.bodies.get(index).colliders.len() {
             let mine = self.bodies.get(index).colliders[slot];
             self.broad

@@ -121,11 +121,11 @@ impl World {
             let pose = self.bodies.get(standing).motion.pose_at(time);
             let (mut near, mut found) = (Vec::new(), Vec::new());
             for &at in &self.bodies.get(standing).colliders {
-                let bounds = self.bodies.colliders[at as usize].solid.aabb(pose);
+                let bounds = self.bodies.colliders[at].solid.aabb(pose);
                 self.free.overlapping(&self.bodies, bounds, &mut found);
                 near.extend(&found);
                 let shapes = self.broad.in_tree(&self.bodies, bounds).into_iter();
-                near.extend(shapes.map(|at| self.bodies.colliders[at as usize].body));
+                near.extend(shapes.map(|at| self.bodies.colliders[at].body));
             }
             near.sort_unstable();
             near.dedup();
@@ -168,7 +168,7 @@ impl World {
         let all = state.colliders.iter();
         let mut shapes = all.flat_map(|mine| other.colliders.iter().map(move |at| [*mine, *at]));
         shapes.any(|shapes| {
-            let [mine, theirs] = shapes.map(|at| &self.bodies.colliders[at as usize]);
+            let [mine, theirs] = shapes.map(|at| &self.bodies.colliders[at]);
             let (one, two) = (&mine.solid, &theirs.solid);
             self.broad.may_touch(&self.bodies, shapes.into())
                 && time_of_impact(one, &motions[0], two, &motions[1], left) != TimeOfImpact::Clear

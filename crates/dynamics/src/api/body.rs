@@ -4,14 +4,15 @@ use carom_collision::Motion;
 use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, SimTime, Vec2};
 
+use crate::store::slots::List;
 use crate::store::state::{BodyState, Collider};
-use crate::{BodyId, BodyKind, Filter, Material, World};
+use crate::{BodyId, BodyKind, ColliderIx, Filter, Material, World};
 
 /// A body of a world, read at the world's time.
 #[derive(Clone, Copy, Debug)]
 pub struct Body<'w> {
     pub(crate) state: &'w BodyState,
-    pub(crate) colliders: &'w [Collider],
+    pub(crate) colliders: &'w List<ColliderIx, Collider>,
     pub(crate) version: u32,
     pub(crate) now: SimTime,
 }
@@ -92,7 +93,7 @@ impl<'w> Body<'w> {
     pub fn shapes(&self) -> impl Iterator<Item = (&'w Shape, &'w Material)> + use<'w> {
         let colliders = self.colliders;
         self.state.colliders.iter().map(move |&i| {
-            let collider = &colliders[i as usize];
+            let collider = &colliders[i];
             (&*collider.drawn, &collider.surface.material)
         })
     }
@@ -101,7 +102,7 @@ impl<'w> Body<'w> {
     pub fn filters(&self) -> impl Iterator<Item = Filter> + use<'w> {
         let colliders = self.colliders;
         let shapes = self.state.colliders.iter();
-        shapes.map(move |&i| colliders[i as usize].surface.filter)
+        shapes.map(move |&i| colliders[i].surface.filter)
     }
 
     /// The motion from its last change on, about the centre of mass; in a field and with damping a parabola near it.

@@ -99,7 +99,7 @@ impl World {
         }
         if kind != BodyKind::Fixed {
             let shapes = state.colliders.iter();
-            let mut solids = shapes.map(|at| &self.bodies.colliders[*at as usize].solid);
+            let mut solids = shapes.map(|at| &self.bodies.colliders[*at].solid);
             if let Some(shape) = solids.position(|solid| !solid.is_bounded()) {
                 return Err(BodyError::HalfPlaneMoves { shape });
             }
@@ -122,7 +122,7 @@ impl World {
     pub fn set_filter(&mut self, id: BodyId, filter: Filter) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         for &at in &self.bodies.get(index).colliders.clone() {
-            self.bodies.colliders[at as usize].set_filter(filter);
+            self.bodies.colliders[at].set_filter(filter);
         }
         self.remake(index, |_| {});
         Ok(())
@@ -139,7 +139,7 @@ impl World {
         filter: Filter,
     ) -> Result<(), BodyError> {
         let at = self.collider_of(id, shape)?;
-        self.bodies.colliders[at as usize].set_filter(filter);
+        self.bodies.colliders[at].set_filter(filter);
         self.remake(id.index, |_| {});
         Ok(())
     }
@@ -315,10 +315,10 @@ impl World {
         let mut found = Vec::new();
         let state = self.bodies.get(index);
         for at in &state.colliders {
-            let mine = &self.bodies.colliders[*at as usize];
+            let mine = &self.bodies.colliders[*at];
             let pose = state.motion.pose_at(time);
             for other in self.broad.in_tree(&self.bodies, mine.solid.aabb(pose)) {
-                let theirs = &self.bodies.colliders[other as usize];
+                let theirs = &self.bodies.colliders[other];
                 let partner = self.bodies.get(theirs.body);
                 if !partner.is_asleep() || !self.broad.may_touch(&self.bodies, (*at, other)) {
                     continue;

@@ -8,7 +8,7 @@ use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
 use crate::store::state::{BodyState, Collider};
-use crate::{BodyId, Filter, Mode, World};
+use crate::{BodyId, ColliderIx, Filter, Ix, Mode, World};
 
 /// What a ray met first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -185,7 +185,8 @@ impl Filtered<'_> {
         for at in self.shapes_outside_trees(box_of_way(start, direction, max)) {
             meet(at);
         }
-        self.world.broad.tree.sweep(start, direction, max, meet);
+        let tree = &self.world.broad.tree;
+        tree.sweep(start, direction, max, |at| meet(ColliderIx::new(at)));
         hits.sort_by(|a, b| {
             let key = |hit: &RayHit| (hit.body.index, hit.shape);
             a.distance.total_cmp(&b.distance).then(key(a).cmp(&key(b)))
@@ -290,7 +291,7 @@ impl Filtered<'_> {
         start: Aabb,
         way: Vec2,
         max: f64,
-        hit: impl Fn(u32, f64) -> Option<((f64, Place), T)>,
+        hit: impl Fn(ColliderIx, f64) -> Option<((f64, Place), T)>,
     ) -> Option<T> {
         let mut best: Option<((f64, Place), T)> = None;
         let mut meet = |at| {
@@ -305,7 +306,8 @@ impl Filtered<'_> {
         for at in self.shapes_outside_trees(box_of_way(start, way, max)) {
             reach = reach.min(meet(at));
         }
-        self.world.broad.tree.sweep(start, way, reach, meet);
+        let tree = &self.world.broad.tree;
+        tree.sweep(start, way, reach, |at| meet(ColliderIx::new(at)));
         best.map(|(_, hit)| hit)
     }
 
@@ -323,7 +325,7 @@ impl Filtered<'_> {
     }
 
     /// Where a ray along a unit vector meets a shape first, up to `max` m.
-    fn ray_hit(&self, at: u32, origin: Vec2, direction: Vec2, max: f64) -> Option<RayHit> {
+    fn ray_hit(&self, at: ColliderIx, origin: Vec2, direction: Vec2, max: f64) -> Option<RayHit> {
         let (body, shape, collider) = self.seen_at(at)?;
         let pose = body.centre_pose(self.world.clock.now);
         let local = (pose.inverse_point(origin), pose.inverse_vector(direction));
@@ -347,12 +349,12 @@ impl Filtered<'_> {
         self.shapes_outside_trees(bounds)
             .into_iter()
             .for_each(&mut look);
-        self.world.broad.tree.query(bounds, look);
+        self.world.broad.query(bounds, look);
     }
 
     /// Shapes that are in no tree and have a piece that may be in `bounds`: of free bodies in the grid, or of the engine where it moves
     /// everything.
-    fn shapes_outside_trees(&self, bounds: Aabb) -> Vec<u32> {
+    fn shapes_outside_trees(&self, bounds: Aabb) -> Vec<ColliderIx> {
         let engine = self.world.stepping.as_ref();
         let in_engine = engine.map(|stepping| stepping.shapes_in(&self.world.bodies, bounds));
         let in_engine = in_engine.unwrap_or_default();
@@ -367,8 +369,8 @@ impl Filtered<'_> {
             .iter()
             .flat_map(|body| &self.world.bodies.get(*body).colliders);
         let members = in_engine.into_iter();
-        let is_member = |at: &u32| {
-            let owner = self.world.bodies.colliders[*at as usize].body;
+        let is_member = |at: &ColliderIx| {
+            let owner = self.world.bodies.colliders[*at].body;
             let state = self.world.bodies.get(owner);
             state.in_engine() && !state.is_asleep()
         };
@@ -376,8 +378,8 @@ impl Filtered<'_> {
     }
 
     /// A shape that the tree named, with its body and its place there, if the filter touches it.
-    fn seen_at(&self, at: u32) -> Option<(&BodyState, usize, &Collider)> {
-        let collider = &self.world.bodies.colliders[at as usize];
+    fn seen_at(&self, at: ColliderIx) -> Option<(&BodyState, usize, &Collider)> {
+        let collider = &self.world.bodies.colliders[at];
         let body = self.world.bodies.get(collider.body);
         self.filter
             .is_none_or(|filter| filter.touches(collider.surface.filter))

@@ -11,7 +11,9 @@ use crate::stepping::threads::Threads;
 use crate::store::mass::{mass_of, reach_of};
 use crate::store::state::BodyState;
 use crate::values::error::{check_finite, check_vec2};
-use crate::{BodyDef, BodyError, BodyId, BodyKind, Material, Settings, SettingsError, World};
+use crate::{
+    BodyDef, BodyError, BodyId, BodyKind, ColliderIx, Material, Settings, SettingsError, World,
+};
 
 impl World {
     /// Changes the surface of one shape: friction, restitution, speed of its belt. Shapes count from 0 in the order of insertion.
@@ -28,7 +30,7 @@ impl World {
     ) -> Result<(), BodyError> {
         material.check()?;
         let at = self.collider_of(id, shape)?;
-        self.bodies.colliders[at as usize].set_material(material);
+        self.bodies.colliders[at].set_material(material);
         self.remake(id.index, |_| {});
         Ok(())
     }
@@ -125,9 +127,7 @@ impl World {
         def.locked_rotation = state.locked_rotation;
         let mass = mass_of(&def, &shapes)?;
         let reach = reach_of(&shapes, mass.centroid);
-        let filter = self.bodies.colliders[state.colliders[0] as usize]
-            .surface
-            .filter;
+        let filter = self.bodies.colliders[state.colliders[0]].surface.filter;
         self.leave_all(index);
         self.broad.forget(&mut self.bodies, index);
         self.free_shapes(index);
@@ -238,7 +238,7 @@ impl World {
     }
 
     /// Place of a body's shape among all shapes.
-    pub(crate) fn collider_of(&self, id: BodyId, shape: usize) -> Result<u32, BodyError> {
+    pub(crate) fn collider_of(&self, id: BodyId, shape: usize) -> Result<ColliderIx, BodyError> {
         let index = self.bodies.find(id)?;
         let shapes = &self.bodies.get(index).colliders;
         shapes.get(shape).copied().ok_or(BodyError::NoSuchShape {

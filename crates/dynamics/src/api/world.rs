@@ -14,13 +14,12 @@ use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 use crate::store::pairs::Pairs;
-use crate::store::slots::number;
 use crate::store::state::{BodyState, Collider, Surface};
 use crate::values::profile::Stopwatch;
 use crate::work::Work;
 use crate::{
-    Body, BodyDef, BodyError, BodyId, BodyKind, Contact, EnergyLedger, Events, Filter, Material,
-    Mode, Momentum, PairIx, Settings, SettingsError, StepProfile, StepReport, World,
+    Body, BodyDef, BodyError, BodyId, BodyKind, ColliderIx, Contact, EnergyLedger, Events, Filter,
+    Material, Mode, Momentum, PairIx, Settings, SettingsError, StepProfile, StepReport, World,
 };
 
 /// So many of the shapes that came last are looked through for one that is alike.
@@ -355,7 +354,13 @@ impl World {
     }
 
     /// Puts a shape of a body among all shapes, and returns its place there.
-    fn add_collider(&mut self, body: u32, shape: Shape, surface: Surface, centroid: Vec2) -> u32 {
+    fn add_collider(
+        &mut self,
+        body: u32,
+        shape: Shape,
+        surface: Surface,
+        centroid: Vec2,
+    ) -> ColliderIx {
         let (drawn, solid) = self.shape_like(shape, centroid);
         let alike = self.latest().find(|known| *known.surface == surface);
         let surface = match alike {
@@ -371,11 +376,10 @@ impl World {
             fat: Aabb::EMPTY,
         };
         if let Some(at) = self.bodies.free_colliders.pop() {
-            self.bodies.colliders[at as usize] = collider;
+            self.bodies.colliders[at] = collider;
             at
         } else {
-            self.bodies.colliders.push(collider);
-            number(self.bodies.colliders.len() - 1)
+            self.bodies.colliders.push(collider)
         }
     }
 

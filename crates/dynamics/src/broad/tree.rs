@@ -9,7 +9,7 @@ use carom_math::{SimTime, Vec2};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;
-use crate::{BodyId, BodyKind, PairIx, PairMaterial, PairSearch};
+use crate::{BodyId, BodyKind, ColliderIx, Ix, PairIx, PairMaterial, PairSearch, Two};
 
 /// Boxes are stretched along the motion over this many sub-steps, so that a body that keeps its
 /// course is looked for again only now and then. Wider boxes find more pairs in vain.
@@ -32,10 +32,10 @@ pub(crate) struct Broad {
     /// Pairs of bodies, in order, that do not collide whatever their filters say.
     pub(crate) excluded: BTreeSet<(BodyId, BodyId)>,
     /// What the last search found, shapes and free bodies: kept for its memory.
-    near: Vec<u32>,
+    near: Vec<ColliderIx>,
     free: Vec<u32>,
     /// What was a pair with a shape before a search, in order: kept for its memory.
-    known: Vec<u32>,
+    known: Vec<ColliderIx>,
 }
 
 impl Broad {
@@ -60,8 +60,8 @@ impl Broad {
         for slot in 0..bodies.get(index).colliders.len() {
             let body = bodies.get(index);
             let at = body.colliders[slot];
-            let swept = swept_box(&bodies.colliders[at as usize], &body.motion, time, h);
-            let collider = &bodies.colliders[at as usize];
+            let swept = swept_box(&bodies.colliders[at], &body.motion, time, h);
+            let collider = &bodies.colliders[at];
             if collider.node.is_some() && collider.fat.contains(swept) {
                 continue;
             }
@@ -81,15 +81,15 @@ impl Broad {
     /// Takes the boxes of a body out of the trees.
     pub(crate) fn forget(&mut self, bodies: &mut Bodies, index: u32) {
         for &at in &bodies.get(index).colliders.clone() {
-            if let Some(node) = bodies.colliders[at as usize].node.take() {
+            if let Some(node) = bodies.colliders[at].node.take() {
                 self.tree.remove(node);
             }
         }
     }
 
     /// Gives a collider a new box.
-    pub(crate) fn put(&mut self, bodies: &mut Bodies, at: u32, fat: Aabb, time: SimTime) {
-        let collider = &mut bodies.colliders[at as usize];
+    pub(crate) fn put(&mut self, bodies: &mut Bodies, at: ColliderIx, fat: Aabb, time: SimTime) {
+        let collider = &mut bodies.colliders[at];
         collider.fat = fat;
         // The tree is asked where a body is at instants in between, too.
         let kept = fat.grown(roundable(fat));
@@ -97,7 +97,7 @@ impl Broad {
         if let Some(node) = collider.node {
             self.tree.update(node, kept);
         } else {
-            collider.node = Some(self.tree.insert(kept, at));
+            collider.node = Some(self.tree.insert(kept, at.number()));
         }
     }
 
@@ -105,31 +105,36 @@ impl Broad {
     pub(crate) fn follow(&mut self, bodies: &mut Bodies, index: u32, time: SimTime, seconds: f64) {
         let motion = bodies.get(index).motion;
         for &at in &bodies.get(index).colliders.clone() {
-            let fat = swept_box(&bodies.colliders[at as usize], &motion, time, seconds);
+            let fat = swept_box(&bodies.colliders[at], &motion, time, seconds);
             self.put(bodies, at, fat, time);
         }
     }
 
+    /// Calls `found` with each collider of the tree that may be in `bounds`.
+    pub(crate) fn query(&self, bounds: Aabb, mut found: impl FnMut(ColliderIx)) {
+        self.tree.query(bounds, |at| found(ColliderIx::new(at)));
+    }
+
     /// Colliders in the trees with boxes that overlap `bounds`, in order.
-    pub(crate) fn in_tree(&self, bodies: &Bodies, bounds: Aabb) -> Vec<u32> {
+    pub(crate) fn in_tree(&self, bodies: &Bodies, bounds: Aabb) -> Vec<ColliderIx> {
         let mut near = Vec::new();
         self.search_tree(bodies, bounds, &mut near);
         near
     }
 
     /// [`Self::in_tree`], in the memory of an earlier search.
-    pub(crate) fn search_tree(&self, bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>) {
+    pub(crate) fn search_tree(&self, bodies: &Bodies, bounds: Aabb, near: &mut Vec<ColliderIx>) {
         near.clear();
         match self.search {
             PairSearch::None => {}
             PairSearch::AllPairs => {
-                let all = (0_u32..).zip(&bodies.colliders);
+                let all = bodies.colliders.each();
                 near.extend(all.filter(|(_, c)| c.node.is_some()).map(|(at, _)| at));
             }
             PairSearch::Indexed => {
                 // The boxes of the tree are rounded: a shape counts by its own.
-                self.tree.query(bounds, |at| {
-                    if bodies.colliders[at as usize].fat.overlaps(bounds) {
+                self.query(bounds, |at| {
+                    if bodies.colliders[at].fat.overlaps(bounds) {
                         near.push(at);
                     }
                 });
@@ -143,21 +148,21 @@ impl Broad {
         &mut self,
         bodies: &mut Bodies,
         pairs: &mut Pairs,
-        at: u32,
+        at: ColliderIx,
         free: Option<&Overlapping<'_>>,
     ) {
-        let bounds = bodies.colliders[at as usize].fat;
+        let bounds = bodies.colliders[at].fat;
         let mut near = core::mem::take(&mut self.near);
         near.clear();
         match self.search {
             PairSearch::None => {}
             PairSearch::AllPairs => {
                 let there = |c: &Collider| c.node.is_some() || bodies.get(c.body).goes_by_events();
-                let all = (0_u32..).zip(&bodies.colliders);
+                let all = bodies.colliders.each();
                 near.extend(all.filter(|(_, c)| there(c)).map(|(at, _)| at));
             }
             PairSearch::Indexed => {
-                self.tree.query(bounds, |other| near.push(other));
+                self.query(bounds, |other| near.push(other));
                 if let Some(free) = free {
                     free(bodies, bounds, &mut self.free);
                     let shapes = |body: &u32| &bodies.get(*body).colliders;
@@ -168,7 +173,7 @@ impl Broad {
         near.sort_unstable();
         near.dedup();
         near.retain(|&other| {
-            let theirs = bodies.colliders[other as usize].fat;
+            let theirs = bodies.colliders[other].fat;
             self.search == PairSearch::AllPairs || theirs.overlaps(bounds)
         });
         self.pair_with(bodies, pairs, at, &near);
@@ -180,26 +185,26 @@ impl Broad {
         &mut self,
         bodies: &mut Bodies,
         pairs: &mut Pairs,
-        at: u32,
-        near: &[u32],
+        at: ColliderIx,
+        near: &[ColliderIx],
     ) {
         // Read once, not for each of what is near: of bodies at one place each has all others in its list.
         let mut known = core::mem::take(&mut self.known);
         known.clear();
-        let list = &bodies.get(bodies.colliders[at as usize].body).pairs;
+        let list = &bodies.get(bodies.colliders[at].body).pairs;
         known.extend(list.iter().filter_map(|&p| pairs.partner(p, at)));
         known.sort_unstable();
         for &other in near {
             if known.binary_search(&other).is_err() {
-                self.insert_pair(bodies, pairs, at, other);
+                self.insert_pair(bodies, pairs, (at, other));
             }
         }
         self.known = known;
     }
 
     /// Two shapes that are no pair yet, if they may be one.
-    fn insert_pair(&self, bodies: &mut Bodies, pairs: &mut Pairs, one: u32, two: u32) {
-        let key = |i: u32| (bodies.colliders[i as usize].body, i);
+    fn insert_pair(&self, bodies: &mut Bodies, pairs: &mut Pairs, (one, two): Two<ColliderIx>) {
+        let key = |i: ColliderIx| (bodies.colliders[i].body, i);
         let (first, second) = if key(one) < key(two) {
             (one, two)
         } else {
@@ -233,30 +238,29 @@ impl Broad {
     }
 
     /// Whether filters and the caller let two shapes touch.
-    pub(crate) fn may_touch(&self, bodies: &Bodies, shapes: (u32, u32)) -> bool {
-        let [one, other] =
-            [shapes.0, shapes.1].map(|at| bodies.colliders[at as usize].surface.filter);
+    pub(crate) fn may_touch(&self, bodies: &Bodies, shapes: Two<ColliderIx>) -> bool {
+        let [one, other] = [shapes.0, shapes.1].map(|at| bodies.colliders[at].surface.filter);
         one.touches(other)
             && (self.excluded.is_empty() || !self.excluded.contains(&ids_of(bodies, shapes)))
     }
 
     /// How the surfaces of two shapes meet.
-    pub(crate) fn material(&self, bodies: &Bodies, shapes: (u32, u32)) -> PairMaterial {
+    pub(crate) fn material(&self, bodies: &Bodies, shapes: Two<ColliderIx>) -> PairMaterial {
         let given = self.overrides.get(&ids_of(bodies, shapes)).copied();
-        let of = |at: u32| &bodies.colliders[at as usize].surface.material;
+        let of = |at: ColliderIx| &bodies.colliders[at].surface.material;
         given.unwrap_or_else(|| of(shapes.0).against(of(shapes.1)))
     }
 
     /// Whether the boxes that a pair of shapes was found with still overlap.
-    pub(crate) fn keeps(&self, bodies: &Bodies, (one, two): (u32, u32)) -> bool {
-        let [one, two] = [one, two].map(|at| bodies.colliders[at as usize].fat);
+    pub(crate) fn keeps(&self, bodies: &Bodies, (one, two): Two<ColliderIx>) -> bool {
+        let [one, two] = [one, two].map(|at| bodies.colliders[at].fat);
         self.search == PairSearch::AllPairs || one.overlaps(two)
     }
 }
 
 /// The bodies of two shapes, in order.
-fn ids_of(bodies: &Bodies, (one, other): (u32, u32)) -> (BodyId, BodyId) {
-    let [a, b] = [one, other].map(|at| bodies.get(bodies.colliders[at as usize].body).id);
+fn ids_of(bodies: &Bodies, (one, other): Two<ColliderIx>) -> (BodyId, BodyId) {
+    let [a, b] = [one, other].map(|at| bodies.get(bodies.colliders[at].body).id);
     (a.min(b), a.max(b))
 }
 

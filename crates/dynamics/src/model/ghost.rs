@@ -13,11 +13,11 @@ use carom_collision::{Hull, contacts};
 use carom_math::{Pose, SimTime, Vec2, cross};
 
 use super::narrow::{TOUCH, look, note_touch};
-use crate::PairIx;
 use crate::store::bodies::Bodies;
 use crate::store::moved::moves;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::BodyState;
+use crate::{ColliderIx, PairIx, Two};
 
 /// Sine of the angle up to which two normals are one.
 const ALONG: f64 = 1e-6;
@@ -27,9 +27,9 @@ const ALONG: f64 = 1e-6;
 pub(crate) struct Meeting {
     /// The body, and the collider and the part that it meets the piece with.
     body: u32,
-    own: (u32, u32),
+    own: (ColliderIx, u32),
     /// Collider and part of the piece.
-    piece: (u32, u32),
+    piece: (ColliderIx, u32),
     /// Unit normal, out of the piece.
     out: Vec2,
 }
@@ -39,7 +39,7 @@ impl Meeting {
     pub(crate) fn of(
         bodies: &Bodies,
         ends: (u32, u32),
-        colliders: (u32, u32),
+        colliders: Two<ColliderIx>,
         parts: (u32, u32),
         normal: Vec2,
     ) -> Option<Self> {
@@ -63,12 +63,12 @@ impl Meeting {
     /// Whether a face of another piece, which the body touches at `time`, parts the two along another normal.
     pub(crate) fn is_ghost(&self, bodies: &Bodies, pairs: &Pairs, time: SimTime) -> bool {
         let body = bodies.get(self.body);
-        let hull = |(collider, number): (u32, u32)| bodies.hull(collider, number);
-        let pose_of = |collider: u32| {
-            let owner = bodies.colliders[collider as usize].body;
+        let hull = |(collider, number): (ColliderIx, u32)| bodies.hull(collider, number);
+        let pose_of = |collider: ColliderIx| {
+            let owner = bodies.colliders[collider].body;
             bodies.get(owner).centre_pose(time)
         };
-        let owner = bodies.get(bodies.colliders[self.piece.0 as usize].body);
+        let owner = bodies.get(bodies.colliders[self.piece.0].body);
         let touch = TOUCH * body.reach.min(owner.reach);
         let bears = |pair: &Pair| {
             stands(bodies.get(pair.other(self.body))) && !self.is_along_all(pair, bodies)
@@ -81,7 +81,7 @@ impl Meeting {
             }
             let (mine, base) = pair.shapes_from(self.body);
             let (pose, base_pose) = (pose_of(mine), pose_of(base));
-            let solid = |collider: u32| &*bodies.colliders[collider as usize].solid;
+            let solid = |collider: ColliderIx| &*bodies.colliders[collider].solid;
             found.clear();
             let seen = pose.seen_from(base_pose);
             contacts(solid(base), solid(mine), seen, touch, &mut found);

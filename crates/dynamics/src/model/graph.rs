@@ -1,8 +1,8 @@
 //! Which bodies touch, and which hang together.
 
-use crate::PairIx;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
+use crate::{ColliderIx, PairIx, Two};
 
 /// An island of more rows (points, and a friction for each touch) than this has no closed form: it is the engine's.
 pub(crate) const ROWS: usize = 64;
@@ -24,7 +24,7 @@ pub(crate) fn pair_of(
     bodies: &Bodies,
     pairs: &Pairs,
     index: u32,
-    (first, second): (u32, u32),
+    (first, second): Two<ColliderIx>,
 ) -> Option<PairIx> {
     let mut places = bodies.get(index).pairs.iter().copied();
     places.find(|place| {

@@ -35,9 +35,9 @@ impl Stepping {
             shapes.dedup();
             let pose = body.centre_pose(time);
             for &own in body.colliders.iter() {
-                let mine = &bodies.colliders[own as usize];
+                let mine = &bodies.colliders[own];
                 for &at in &shapes {
-                    let theirs = &bodies.colliders[at as usize];
+                    let theirs = &bodies.colliders[at];
                     let other = bodies.get(theirs.body);
                     if theirs.body == index
                         || !(body.is_dynamic() || other.is_dynamic())

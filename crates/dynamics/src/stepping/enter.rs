@@ -12,7 +12,7 @@ use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 use crate::store::slots::grown;
 use crate::store::state::BodyState;
-use crate::{BodyKind, Mode};
+use crate::{BodyKind, Ix, Mode};
 
 /// A place that differs by less, as a part of the reach, is the same but for rounding: what was only looked at stays.
 const SAME: f64 = 1e-12;
@@ -54,8 +54,8 @@ impl Stepping {
             .colliders
             .iter()
             .map(|at| {
-                let solid = Arc::clone(&bodies.colliders[*at as usize].solid);
-                PieceInput::shared(solid).tagged(u64::from(*at))
+                let solid = Arc::clone(&bodies.colliders[*at].solid);
+                PieceInput::shared(solid).tagged(u64::from(at.number()))
             })
             .collect();
         // All numbers were checked where they entered the world.
@@ -66,7 +66,7 @@ impl Stepping {
         let widths = state
             .colliders
             .iter()
-            .map(|at| &bodies.colliders[*at as usize].solid)
+            .map(|at| &bodies.colliders[*at].solid)
             .filter(|solid| part_count(solid) > 1)
             .map(|solid| solid.aabb(Pose::IDENTITY).extents().length());
         self.widest = widths.fold(self.widest, f64::max);

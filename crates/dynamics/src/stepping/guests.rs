@@ -24,7 +24,7 @@ impl Stepping {
     fn uncovered(&self, of: impl FnOnce(&Engine, &mut dyn FnMut(u64, Aabb))) -> Vec<(u64, Aabb)> {
         let mut boxes = Vec::new();
         of(&self.engine, &mut |tag, bounds| {
-            let covered = self.covered.get(super::collider(tag) as usize);
+            let covered = self.covered.get(super::body(tag) as usize);
             if covered.is_none_or(|covered| !covered.contains(bounds)) {
                 boxes.push((tag, bounds));
             }
@@ -77,7 +77,7 @@ impl Stepping {
                         bodies: &mut Bodies| {
             broad.search_tree(bodies, bounds, &mut near);
             for at in &near {
-                let index = bodies.colliders[*at as usize].body;
+                let index = bodies.colliders[*at].body;
                 let state = bodies.get_mut(index);
                 let is_new = !state.is_guest && !state.in_engine() && state.rests_or_drives();
                 if is_new && is_asked(state.kind) {
@@ -89,7 +89,7 @@ impl Stepping {
         for (tag, bounds) in boxes {
             let size = bounds.extents();
             let around = bounds.grown(AROUND * size.x.max(size.y));
-            *grown(&mut self.covered, super::collider(tag), Aabb::EMPTY) = around;
+            *grown(&mut self.covered, super::body(tag), Aabb::EMPTY) = around;
             note(around, |_| true, &mut guests, bodies);
         }
         // The engine wakes sleepers that a fixed body is put into: one that always was there comes first.
@@ -99,12 +99,7 @@ impl Stepping {
             if bodies.get(index).kind == BodyKind::Dynamic {
                 for &at in &bodies.get(index).colliders.clone() {
                     let is_fixed = |kind| kind == BodyKind::Fixed;
-                    note(
-                        bodies.colliders[at as usize].fat,
-                        is_fixed,
-                        &mut guests,
-                        bodies,
-                    );
+                    note(bodies.colliders[at].fat, is_fixed, &mut guests, bodies);
                 }
             }
         }

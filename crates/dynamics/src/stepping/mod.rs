@@ -33,7 +33,7 @@ use carom_stepped::{Engine, EngineError, Impact, Softness, State, Touch};
 
 use crate::store::pairs::Shapes;
 use crate::values::error::SettingsError;
-use crate::{Mode, Settings};
+use crate::{ColliderIx, Ix, Mode, Settings};
 
 pub(crate) use join::{Joins, MANY};
 pub(crate) use within::is_blow;
@@ -150,13 +150,18 @@ fn sleep_of(settings: &Settings) -> Option<carom_stepped::Sleep> {
 }
 
 /// The world's place of a body of the engine.
-#[expect(clippy::cast_possible_truncation, reason = "tags are places")]
 pub(crate) const fn place(state: &State) -> u32 {
-    state.tag as u32
+    body(state.tag)
+}
+
+/// The world's body with a tag.
+#[expect(clippy::cast_possible_truncation, reason = "tags are places")]
+const fn body(tag: u64) -> u32 {
+    tag as u32
 }
 
 /// The world's shape that a piece of the engine is, or is a part of.
 #[expect(clippy::cast_possible_truncation, reason = "tags are places")]
-const fn collider(tag: u64) -> u32 {
-    tag as u32
+fn collider(tag: u64) -> ColliderIx {
+    ColliderIx::new(tag as u32)
 }

@@ -8,6 +8,7 @@ use carom_math::SimTime;
 
 use super::rules::Rules;
 use super::{Joins, Stepping};
+use crate::ColliderIx;
 use crate::broad::window::box_ahead;
 
 impl Joins {
@@ -100,13 +101,13 @@ impl Stepping {
         rules: Rules<'_>,
         reached: SimTime,
         index: u32,
-        at: u32,
+        at: ColliderIx,
         (time, left): (SimTime, f64),
     ) -> bool {
         /// What is nearer than this joins however it moves, as a fraction of the smaller reach.
         const MARGIN: f64 = 1.0 / 128.0;
         let bodies = rules.bodies;
-        let owner = bodies.colliders[at as usize].body;
+        let owner = bodies.colliders[at].body;
         if owner == index || !bodies.get(owner).in_engine() {
             return false;
         }
@@ -140,7 +141,7 @@ impl Stepping {
         let mut found = Vec::new();
         for &mine in &state.colliders {
             if rules.broad.may_touch(bodies, (mine, at)) {
-                let [mine, their] = [mine, at].map(|at| &bodies.colliders[at as usize].solid);
+                let [mine, their] = [mine, at].map(|at| &bodies.colliders[at].solid);
                 let seen = pose.seen_from(own);
                 carom_collision::contacts(mine, their, seen, margin, &mut found);
             }

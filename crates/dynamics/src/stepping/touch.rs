@@ -7,7 +7,7 @@ use carom_math::SimTime;
 use super::{Stepping, collider};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Shapes;
-use crate::{Contact, ContactPoint, EventKind, Events, StepReport};
+use crate::{ColliderIx, Contact, ContactPoint, EventKind, Events, StepReport};
 
 impl Stepping {
     /// Begins and ends of touch since this was last called, in order of shapes.
@@ -36,8 +36,7 @@ impl Stepping {
             let shapes = of_pair[0].0;
             let gained: i32 = of_pair.iter().map(|change| change.1).sum();
             let was_told = of_pair.iter().any(|change| change.2);
-            let several =
-                |(_, at): (u32, u32)| part_count(&bodies.colliders[at as usize].solid) > 1;
+            let several = |(_, at): (u32, ColliderIx)| part_count(&bodies.colliders[at].solid) > 1;
             // Pieces of a pair of single ones touch or do not: there is nothing to count.
             let (before, now) = if shapes.into_iter().any(several) {
                 let count = self.touching.entry(shapes).or_default();
@@ -69,7 +68,7 @@ impl Stepping {
         let are_some = !self.impacts.is_empty();
         report.impacts += self.impacts.len() as u64;
         for impact in self.impacts.drain(..) {
-            let owner = |tag: u64| bodies.colliders[collider(tag) as usize].body;
+            let owner = |tag: u64| bodies.colliders[collider(tag)].body;
             let ids = impact.tags.map(|tag| bodies.get(owner(tag)).id);
             let at = (impact.place, impact.normal);
             let impulses = (impact.normal_impulse, impact.tangential_impulse);
@@ -82,7 +81,7 @@ impl Stepping {
     }
 
     /// Shapes with a piece that may be in `bounds`.
-    pub(crate) fn shapes_in(&self, bodies: &Bodies, bounds: Aabb) -> Vec<u32> {
+    pub(crate) fn shapes_in(&self, bodies: &Bodies, bounds: Aabb) -> Vec<ColliderIx> {
         let mut found = Vec::new();
         self.engine.query(bounds, |tag| found.push(collider(tag)));
         // What a caller changed since is not where the engine has it.
@@ -118,7 +117,7 @@ impl Stepping {
 fn shapes_of(bodies: &Bodies, tags: [u64; 2]) -> Shapes {
     let mut shapes = tags.map(|tag| {
         let at = collider(tag);
-        (bodies.colliders[at as usize].body, at)
+        (bodies.colliders[at].body, at)
     });
     shapes.sort_unstable();
     shapes

@@ -12,10 +12,11 @@ use super::history::History;
 use super::moved::{Moved, moves};
 use super::pull::Pull;
 use super::regime::Members;
+use super::slots::List;
 use super::state::{BodyState, Collider};
 use super::uncommon::Lag;
 use crate::impact::ImpactBody;
-use crate::{BodyError, BodyId, EnergyLedger};
+use crate::{BodyError, BodyId, ColliderIx, EnergyLedger, Two};
 
 /// Running sums of the energy ledger's columns, with twice the digits.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,8 +40,8 @@ pub(crate) struct Bodies {
     alive: Vec<bool>,
     free: Vec<u32>,
     /// The shapes of all bodies, and places among them that are free.
-    pub(crate) colliders: Vec<Collider>,
-    pub(crate) free_colliders: Vec<u32>,
+    pub(crate) colliders: List<ColliderIx, Collider>,
+    pub(crate) free_colliders: Vec<ColliderIx>,
     pub(crate) history: History,
     pub(crate) book: EnergyBook,
     pub(crate) pull: Pull,
@@ -211,13 +212,13 @@ impl Bodies {
     }
 
     /// Two shapes.
-    pub(crate) fn solids(&self, (a, b): (u32, u32)) -> [&Arc<Shape>; 2] {
-        [a, b].map(|at| &self.colliders[at as usize].solid)
+    pub(crate) fn solids(&self, (a, b): Two<ColliderIx>) -> [&Arc<Shape>; 2] {
+        [a, b].map(|at| &self.colliders[at].solid)
     }
 
     /// A convex part of a shape.
-    pub(crate) fn hull(&self, collider: u32, number: u32) -> Hull<'_> {
-        part(&self.colliders[collider as usize].solid, number as usize)
+    pub(crate) fn hull(&self, collider: ColliderIx, number: u32) -> Hull<'_> {
+        part(&self.colliders[collider].solid, number as usize)
     }
 
     /// Gives a body its velocities after an impact; whether it has a mass that moves.
@@ -234,7 +235,7 @@ impl Bodies {
     /// Gives all shapes of a body the same box.
     pub(crate) fn set_boxes(&mut self, index: u32, bounds: Aabb) {
         for &at in &self.list[index as usize].colliders {
-            self.colliders[at as usize].fat = bounds;
+            self.colliders[at].fat = bounds;
         }
     }
 
@@ -249,7 +250,7 @@ impl Bodies {
     pub(crate) fn stop(&mut self, index: u32, time: SimTime) {
         // Its last box is the only record of where it was.
         let known = self.get(index).colliders.iter();
-        let mut boxes = known.map(|at| self.colliders[*at as usize].fat.centre());
+        let mut boxes = known.map(|at| self.colliders[*at].fat.centre());
         let last = boxes.find(|centre| centre.is_finite());
         let state = self.get_mut(index);
         let motion = &mut state.motion;

@@ -2,21 +2,21 @@
 
 use core::ops::Deref;
 
-/// Numbers in order: one is kept in place, and more on the heap. 16 bytes.
+/// Values in order: one is kept in place, and more on the heap. 16 bytes.
 #[derive(Clone, Debug)]
-pub(crate) enum Few {
-    One(u32),
-    Many(Box<[u32]>),
+pub(crate) enum Few<T> {
+    One(T),
+    Many(Box<[T]>),
 }
 
-impl Default for Few {
+impl<T> Default for Few<T> {
     fn default() -> Self {
         Self::Many(Box::default())
     }
 }
 
-impl FromIterator<u32> for Few {
-    fn from_iter<I: IntoIterator<Item = u32>>(numbers: I) -> Self {
+impl<T> FromIterator<T> for Few<T> {
+    fn from_iter<I: IntoIterator<Item = T>>(numbers: I) -> Self {
         let mut numbers = numbers.into_iter().fuse();
         match (numbers.next(), numbers.next()) {
             (Some(number), None) => Self::One(number),
@@ -25,10 +25,10 @@ impl FromIterator<u32> for Few {
     }
 }
 
-impl Deref for Few {
-    type Target = [u32];
+impl<T> Deref for Few<T> {
+    type Target = [T];
 
-    fn deref(&self) -> &[u32] {
+    fn deref(&self) -> &[T] {
         match self {
             Self::One(number) => core::slice::from_ref(number),
             Self::Many(numbers) => numbers,
@@ -36,9 +36,9 @@ impl Deref for Few {
     }
 }
 
-impl<'a> IntoIterator for &'a Few {
-    type Item = &'a u32;
-    type IntoIter = core::slice::Iter<'a, u32>;
+impl<'a, T> IntoIterator for &'a Few<T> {
+    type Item = &'a T;
+    type IntoIter = core::slice::Iter<'a, T>;
 
     fn into_iter(self) -> Self::IntoIter {
         self.iter()
@@ -51,9 +51,9 @@ mod tests {
 
     #[test]
     fn what_is_collected_is_there_in_order() {
-        assert_eq!(size_of::<Few>(), 16);
+        assert_eq!(size_of::<Few<u32>>(), 16);
         for count in 0..5 {
-            let few: Few = (0..count).collect();
+            let few: Few<u32> = (0..count).collect();
             assert!(few.iter().copied().eq(0..count));
         }
     }

@@ -6,12 +6,12 @@ use carom_math::{SimTime, Vec2};
 
 use super::clock::whole;
 use super::slots::{List, Slots};
-use crate::{ContactMode, PairIx, PairMaterial};
+use crate::{ColliderIx, ContactMode, PairIx, PairMaterial, Two};
 
 /// Two colliders of different bodies with overlapping boxes; the lower body comes first.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pair {
-    pub(crate) colliders: (u32, u32),
+    pub(crate) colliders: Two<ColliderIx>,
     pub(crate) bodies: (u32, u32),
     pub(crate) material: PairMaterial,
     /// Not looked at yet: what lies beside a body that starts asleep must be known before either is struck.
@@ -39,7 +39,7 @@ pub(crate) struct Pair {
 }
 
 /// Two shapes of two bodies: (body, collider) of both.
-pub(crate) type Shapes = [(u32, u32); 2];
+pub(crate) type Shapes = [(u32, ColliderIx); 2];
 
 impl Pair {
     /// Its bodies, each with its shape.
@@ -75,7 +75,7 @@ impl Pair {
     }
 
     /// The shape that this body has in it, and that of the other.
-    pub(crate) fn shapes_from(&self, body: u32) -> (u32, u32) {
+    pub(crate) fn shapes_from(&self, body: u32) -> Two<ColliderIx> {
         let (first, second) = self.colliders;
         if self.bodies.0 == body {
             (first, second)
@@ -110,7 +110,7 @@ pub(crate) struct PairPoint {
 pub(crate) struct Pairs {
     list: Slots<PairIx, Pair>,
     /// By place: shapes of pairs, to be read without the rest.
-    shapes: List<PairIx, (u32, u32)>,
+    shapes: List<PairIx, Two<ColliderIx>>,
     /// Places of pairs that have not been looked at yet.
     pub(crate) fresh: Vec<PairIx>,
 }
@@ -146,12 +146,12 @@ impl Pairs {
     }
 
     /// What a pair is of, without the rest of it.
-    pub(crate) fn shapes(&self, place: PairIx) -> (u32, u32) {
+    pub(crate) fn shapes(&self, place: PairIx) -> Two<ColliderIx> {
         self.shapes[place]
     }
 
     /// The other shape of a pair that this shape is in.
-    pub(crate) fn partner(&self, place: PairIx, shape: u32) -> Option<u32> {
+    pub(crate) fn partner(&self, place: PairIx, shape: ColliderIx) -> Option<ColliderIx> {
         match self.shapes(place) {
             (one, other) | (other, one) if one == shape => Some(other),
             _ => None,

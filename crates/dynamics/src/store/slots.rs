@@ -63,9 +63,11 @@ impl<I: Ix, T> List<I, T> {
     where
         T: Clone,
     {
-        let length = self.0.len().max(place.at() + 1);
-        self.0.resize(length, fill);
-        &mut self.0[place.at()]
+        let at = place.at();
+        if self.0.len() <= at {
+            self.0.resize(at + 1, fill);
+        }
+        &mut self.0[at]
     }
 
     /// All values with their places, in order.

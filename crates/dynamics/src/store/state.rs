@@ -11,11 +11,12 @@ use super::few::Few;
 use super::mass::{mass_of, reach_of};
 use super::membership::Membership;
 use super::regime::Regime;
+use super::slots::List;
 use super::uncommon::{Lag, Uncommon};
 use crate::impact::ImpactBody;
 use crate::law::flight::Flight;
 use crate::values::error::BodyError;
-use crate::{BodyDef, BodyId, BodyKind, Filter, Material, Mode, PairIx};
+use crate::{BodyDef, BodyId, BodyKind, ColliderIx, Filter, Material, Mode, PairIx};
 use carom_collision::NodeId;
 
 /// All that a world keeps of one body. Nothing else stores a pose.
@@ -44,7 +45,7 @@ pub(crate) struct BodyState {
     pub(crate) flight: Option<Arc<Flight>>,
     /// Largest distance of a point of its shapes from the centre of mass, in m.
     pub(crate) reach: f64,
-    pub(crate) colliders: Few,
+    pub(crate) colliders: Few<ColliderIx>,
     /// Angle at the motion's start with all whole turns, to about 1e-10 rad: it counts turns.
     pub(crate) turned: f64,
     /// What few bodies have; none is [`Uncommon::NONE`].
@@ -165,7 +166,7 @@ impl BodyState {
     }
 
     /// Which of the body's shapes a collider is, in the order of insertion.
-    pub(crate) fn shape_of(&self, collider: u32) -> usize {
+    pub(crate) fn shape_of(&self, collider: ColliderIx) -> usize {
         self.colliders
             .iter()
             .take_while(|at| **at != collider)
@@ -225,11 +226,8 @@ impl BodyState {
     }
 
     /// Least half width of its shapes, in m: the narrowest thing that can hold it back.
-    pub(crate) fn inner(&self, colliders: &[Collider]) -> f64 {
-        let solids = self
-            .colliders
-            .iter()
-            .map(|&at| &colliders[at as usize].solid);
+    pub(crate) fn inner(&self, colliders: &List<ColliderIx, Collider>) -> f64 {
+        let solids = self.colliders.iter().map(|&at| &colliders[at].solid);
         solids
             .map(|solid| half_width(solid))
             .fold(f64::INFINITY, f64::min)
@@ -377,8 +375,8 @@ impl BodyState {
     }
 
     /// Whether its outline stays where it is as it turns: a disc about its centre of mass.
-    pub(crate) fn turns_in_place(&self, colliders: &[Collider]) -> bool {
-        let is_disc = |at: &u32| matches!(*colliders[*at as usize].solid, Shape::Circle(_));
+    pub(crate) fn turns_in_place(&self, colliders: &List<ColliderIx, Collider>) -> bool {
+        let is_disc = |at: &ColliderIx| matches!(*colliders[*at].solid, Shape::Circle(_));
         self.colliders.iter().all(is_disc) && self.inner(colliders) >= self.reach
     }
 

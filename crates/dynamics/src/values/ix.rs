@@ -2,6 +2,9 @@
 
 use core::fmt;
 
+/// Of A and of B.
+pub(crate) type Two<T> = (T, T);
+
 /// A place in a list.
 pub(crate) trait Ix: Copy {
     /// No place.
@@ -36,6 +39,8 @@ macro_rules! numbers {
 }
 
 numbers! {
+    /// A shape of a body.
+    ColliderIx
     /// A pair of shapes.
     PairIx
     /// A foreseen impact of free bodies.

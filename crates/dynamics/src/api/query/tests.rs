@@ -11,7 +11,7 @@ use crate::{BodyDef, Material, PairSearch, Settings};
 fn all_shapes(world: &World) -> impl Iterator<Item = (&BodyState, usize, &Collider)> {
     world.bodies.iter().flat_map(move |body| {
         let places = body.colliders.iter().enumerate();
-        places.map(move |(i, at)| (body, i, &world.bodies.colliders[*at as usize]))
+        places.map(move |(i, at)| (body, i, &world.bodies.colliders[*at]))
     })
 }
 

@@ -10,7 +10,7 @@ use crate::broad::grid::SweptBox;
 use crate::broad::window::{Window, swept};
 use crate::store::state::BodyState;
 use crate::store::swept::Sides;
-use crate::{BodyKind, PairSearch, World};
+use crate::{BodyKind, ColliderIx, Ix, PairSearch, Two, World};
 
 /// Part of a cell that a free body travels within its horizon.
 const TRAVEL: f64 = 0.35;
@@ -227,19 +227,24 @@ impl World {
         self.bodies.version(a).wrapping_add(self.bodies.version(b))
     }
 
-    pub(super) fn queue_near_shape(&mut self, index: u32, at: u32, time: SimTime) {
+    pub(super) fn queue_near_shape(&mut self, index: u32, at: ColliderIx, time: SimTime) {
         let entry = Entry {
             time,
             a: index,
-            b: at,
-            stamp: self.stamp(index, self.bodies.colliders[at as usize].body),
+            b: at.number(),
+            stamp: self.stamp(index, self.bodies.colliders[at].body),
             what: What::NEAR_SHAPE,
         };
         self.free.queue.push(entry);
     }
 
     /// Another look at a pair of bodies that a free body belongs to, at `time`.
-    pub(super) fn look_again(&mut self, (a, b): (u32, u32), shapes: (u32, u32), time: SimTime) {
+    pub(super) fn look_again(
+        &mut self,
+        (a, b): (u32, u32),
+        shapes: Two<ColliderIx>,
+        time: SimTime,
+    ) {
         if self.both_fly(a, b) {
             self.queue_near(a, b, time);
         } else if self.bodies.get(a).goes_by_events() {
@@ -302,14 +307,14 @@ impl World {
                 }
             }
             What::NEAR_SHAPE => {
-                let owner = self.bodies.colliders[entry.b as usize].body;
+                let owner = self.bodies.colliders[entry.shape()].body;
                 let state = self.bodies.get(owner);
                 let rests = !state.goes_by_events() && !state.is_active();
                 if self.stamp(index, owner) == entry.stamp
                     && self.bodies.get(index).goes_by_events()
                     && rests
                 {
-                    self.seek_shape(index, entry.b, time, Cause::Deflected);
+                    self.seek_shape(index, entry.shape(), time, Cause::Deflected);
                 }
             }
             _ => {

@@ -6,14 +6,14 @@ use carom_math::{SimTime, Vec2};
 
 use super::FreeBodies;
 use super::queue::{Entry, What};
-use crate::BodyId;
 use crate::store::bodies::Bodies;
+use crate::{BodyId, ColliderIx, Two};
 
 /// An impact ahead: all that its response needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Foreseen {
     pub(crate) bodies: (u32, u32),
-    pub(crate) colliders: (u32, u32),
+    pub(crate) colliders: Two<ColliderIx>,
     /// Unit normal from the first body to the second.
     pub(crate) normal: Vec2,
     /// One point, or both ends of a common stretch, in m.
@@ -24,7 +24,7 @@ pub(crate) struct Foreseen {
 
 impl Foreseen {
     /// What a search found for these shapes of two bodies.
-    pub(super) fn of(bodies: (u32, u32), colliders: (u32, u32), impact: &Impact) -> Self {
+    pub(super) fn of(bodies: (u32, u32), colliders: Two<ColliderIx>, impact: &Impact) -> Self {
         Self {
             bodies,
             colliders,
@@ -132,7 +132,7 @@ pub(super) fn is_stale(entry: &Entry, bodies: &Bodies) -> bool {
         }
         What::HORIZON => return bodies.get(entry.a).course.entered.0 != entry.time,
         What::GROUND => return bodies.get(entry.a).course.entered.1 != entry.time,
-        What::NEAR_SHAPE => bodies.colliders[entry.b as usize].body,
+        What::NEAR_SHAPE => bodies.colliders[entry.shape()].body,
         _ => entry.b,
     };
     version(entry.a).wrapping_add(version(other)) != entry.stamp

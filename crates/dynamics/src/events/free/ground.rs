@@ -9,7 +9,7 @@ use super::queue::What;
 use crate::broad::free_fall_frame::Track;
 use crate::broad::window::{self, room_about, swept};
 use crate::store::swept::Sides;
-use crate::{BodyKind, World};
+use crate::{BodyKind, ColliderIx, World};
 
 /// Longest way, in cells, that a free body looks down for first, and the shortest, as a part of it. Cells are as wide as free bodies
 /// are apart: what does not fly may lie far closer.
@@ -119,13 +119,13 @@ impl World {
         let mut near = core::mem::take(&mut self.free.shapes);
         let reached = self.bodies.get(index).course.reached.bounds();
         self.broad.search_tree(&self.bodies, reached, &mut near);
-        let overlaps = |at: &u32| {
-            let collider = &self.bodies.colliders[*at as usize];
+        let overlaps = |at: &ColliderIx| {
+            let collider = &self.bodies.colliders[*at];
             collider.body != index && collider.fat.overlaps(reached)
         };
         let clear = !near.iter().any(overlaps);
         // The box of a half-plane that leans is all of the plane: it is there however short a free body looks.
-        let bounded = |at: &u32| self.bodies.colliders[*at as usize].solid.is_bounded();
+        let bounded = |at: &ColliderIx| self.bodies.colliders[*at].solid.is_bounded();
         let found = near.iter().filter(|at| overlaps(at) && bounded(at)).count();
         let course = &mut self.bodies.get_mut(index).course;
         course.alone = found == 0;
@@ -135,10 +135,10 @@ impl World {
             course.look = (2.0 * course.look).min(1.0);
         }
         course.clear_at = if clear { time } else { SimTime::NEVER };
-        near.retain(|&at| self.bodies.colliders[at as usize].body != index);
+        near.retain(|&at| self.bodies.colliders[at].body != index);
         let mut waiting = Vec::new();
         for &at in &near {
-            let owner = self.bodies.colliders[at as usize].body;
+            let owner = self.bodies.colliders[at].body;
             let state = self.bodies.get(owner);
             if state.goes_by_events() {
                 let [own, theirs] =
@@ -157,9 +157,15 @@ impl World {
     }
 
     /// A free body and a shape that rests.
-    pub(crate) fn approach_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
+    pub(crate) fn approach_shape(
+        &mut self,
+        index: u32,
+        at: ColliderIx,
+        time: SimTime,
+        cause: Cause,
+    ) {
         let body = self.bodies.get(index);
-        let owner = self.bodies.get(self.bodies.colliders[at as usize].body);
+        let owner = self.bodies.get(self.bodies.colliders[at].body);
         if body.kind != BodyKind::Dynamic && owner.kind != BodyKind::Dynamic {
             return;
         }
@@ -175,7 +181,7 @@ impl World {
             motion.velocity_at(time),
             motion.acceleration,
             body.reach + motion.left_out,
-            self.bodies.colliders[at as usize].fat,
+            self.bodies.colliders[at].fat,
         );
         let left = body.course.ground - time;
         if from > left {

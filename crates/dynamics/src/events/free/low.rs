@@ -4,6 +4,7 @@ use carom_math::SimTime;
 
 use super::Foreseen;
 use super::strike::approach_speed;
+use crate::ColliderIx;
 use crate::model::gap::{Touching, gap_acceleration};
 use crate::store::bodies::Bodies;
 use crate::store::mass::CENTRED;
@@ -29,8 +30,8 @@ pub(super) fn micro_bounce(
     let after = [a, b].map(|index| bodies.get(index).in_impact(time));
     let (rise, pressed) = (-approach_speed(impact, &after), press(bodies, impact, time));
     let (one, two) = (bodies.get(a), bodies.get(b));
-    let steady = |state: &BodyState, at: u32| {
-        let vertices = bodies.colliders[at as usize].solid.vertices();
+    let steady = |state: &BodyState, at: ColliderIx| {
+        let vertices = bodies.colliders[at].solid.vertices();
         let round = matches!(vertices, [centre] if centre.length() <= CENTRED * state.reach);
         state.motion.spin == 0.0 || round
     };
@@ -83,7 +84,7 @@ pub(super) fn bounces_high(bodies: &Bodies, impact: &Foreseen, time: SimTime, sp
 
 /// How fast two bodies are pressed together where they touch, in m/s²; negative: pulled apart.
 pub(super) fn press(bodies: &Bodies, impact: &Foreseen, time: SimTime) -> f64 {
-    let feature = |index: u32, at: u32, number: u32| {
+    let feature = |index: u32, at: ColliderIx, number: u32| {
         let mut motion = bodies.get(index).motion;
         if bodies.bends(index) {
             motion = bodies.get(index).at(time).0;

@@ -32,12 +32,12 @@ use crate::store::bodies::Bodies;
 use crate::store::course::Course;
 use crate::store::slots::{Slots, grown};
 use crate::store::state::BodyState;
+use crate::{ColliderIx, ImpactIx, Two};
 use aside::Aside;
 use circle::Registered;
 pub(crate) use foresee::Cause;
 pub(crate) use foreseen::Foreseen;
 
-use crate::ImpactIx;
 use queue::{Queue, What};
 
 impl Course {
@@ -95,11 +95,11 @@ pub(crate) struct FreeBodies {
     fits: bool,
     /// Scratch of a search: free bodies, and shapes of bodies that are not free.
     near: Vec<u32>,
-    shapes: Vec<u32>,
+    shapes: Vec<ColliderIx>,
     /// The end of a micro-bounce, in s from the impact that is being resolved.
     micro_bounce: Option<(f64, Foreseen)>,
     /// The shapes in the impact that is being resolved, and where they part.
-    struck: Option<((u32, u32), ImpactFeature)>,
+    struck: Option<(Two<ColliderIx>, ImpactFeature)>,
     /// Bodies that began to last in contact, when, and how often at that instant.
     lasting: ((u32, u32), SimTime, u32),
 }

@@ -3,8 +3,9 @@
 use core::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use crate::{ImpactIx, Ix};
 use carom_math::SimTime;
+
+use crate::{ColliderIx, ImpactIx, Ix};
 
 /// What happens at an entry's time, if the bodies still move as they did; at equal times in this order, impacts by their slots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,10 +40,18 @@ impl What {
 pub(crate) struct Entry {
     pub(crate) time: SimTime,
     pub(crate) a: u32,
+    /// Number of body or shape `b`, as `what` says.
     pub(crate) b: u32,
     /// Sum of the two bodies' versions: versions only grow, so that it is equal only if both are.
     pub(crate) stamp: u32,
     pub(crate) what: What,
+}
+
+impl Entry {
+    /// Shape `b`.
+    pub(super) fn shape(&self) -> ColliderIx {
+        ColliderIx::new(self.b)
+    }
 }
 
 impl Ord for Entry {

@@ -20,7 +20,7 @@ use crate::model::graph::pair_of;
 use crate::model::narrow::{TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
 use crate::motion::first_touch::{first_touch, first_touch_of_parts};
 use crate::store::few::Few;
-use crate::{PairIx, World};
+use crate::{ColliderIx, PairIx, Two, World};
 
 /// Part of a sub-step after which a contact that opens with t³ has a gap that a search sees, of some 1e-13 of a size.
 const OPENED: f64 = 1.0 / 64.0;
@@ -70,8 +70,8 @@ impl World {
     }
 
     /// Time of impact of a free body and a shape that rests, from now to the free body's horizon.
-    pub(super) fn seek_shape(&mut self, index: u32, at: u32, time: SimTime, cause: Cause) {
-        let owner = self.bodies.colliders[at as usize].body;
+    pub(super) fn seek_shape(&mut self, index: u32, at: ColliderIx, time: SimTime, cause: Cause) {
+        let owner = self.bodies.colliders[at].body;
         let body = self.bodies.get(index);
         let (end, mine) = (body.course.ground - time, body.colliders.clone());
         self.seek_all((index, owner), (mine, Few::One(at)), time, end, cause);
@@ -81,7 +81,7 @@ impl World {
     fn seek_all(
         &mut self,
         (a, b): (u32, u32),
-        shapes: (Few, Few),
+        shapes: (Few<ColliderIx>, Few<ColliderIx>),
         time: SimTime,
         end: f64,
         cause: Cause,
@@ -112,7 +112,7 @@ impl World {
     fn seek_shapes(
         &mut self,
         (a, b): (u32, u32),
-        shapes: (u32, u32),
+        shapes: Two<ColliderIx>,
         time: SimTime,
         length: f64,
         cause: Cause,
@@ -209,7 +209,13 @@ impl World {
     }
 
     /// Whether one of two bodies slides over the side of the other that the impact is on: the side that bears it is flush with that.
-    fn passes(&self, ends: (u32, u32), shapes: (u32, u32), impact: &Impact, time: SimTime) -> bool {
+    fn passes(
+        &self,
+        ends: (u32, u32),
+        shapes: Two<ColliderIx>,
+        impact: &Impact,
+        time: SimTime,
+    ) -> bool {
         if self.moving_end(ends).is_none() {
             return false;
         }
@@ -239,7 +245,7 @@ impl World {
 
     /// Whether two shapes that the caller put where they are overlap by more than rounding, or rest on
     /// each other.
-    fn holds(&self, (a, b): (u32, u32), shapes: (u32, u32), time: SimTime) -> bool {
+    fn holds(&self, (a, b): (u32, u32), shapes: Two<ColliderIx>, time: SimTime) -> bool {
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let (pose_a, pose_b) = (one.centre_pose(time), two.centre_pose(time));
         let touch = TOUCH * one.reach.min(two.reach);
@@ -258,7 +264,7 @@ impl World {
     }
 
     /// The pair of two shapes that an island in analytic motion has: that of a contact, or of one that is just over.
-    pub(super) fn moving_pair(&self, ends: (u32, u32), shapes: (u32, u32)) -> Option<PairIx> {
+    pub(super) fn moving_pair(&self, ends: (u32, u32), shapes: Two<ColliderIx>) -> Option<PairIx> {
         let index = self.moving_end(ends)?;
         pair_of(&self.bodies, &self.pairs, index, shapes)
     }

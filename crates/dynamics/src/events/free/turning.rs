@@ -10,6 +10,7 @@ use carom_collision::{TimeOfImpact, shape_distance};
 use carom_geometry::{Circle, Shape};
 use carom_math::SimTime;
 
+use crate::ColliderIx;
 use crate::motion::first_touch::first_touch;
 use crate::store::bodies::Bodies;
 
@@ -101,7 +102,7 @@ fn shapes_however_turned(
     match Circle::new(about) {
         Ok(circle) if spin * length > TURN => vec![Arc::new(circle.into())],
         _ => {
-            let solid = |at: &u32| Arc::clone(&bodies.colliders[*at as usize].solid);
+            let solid = |at: &ColliderIx| Arc::clone(&bodies.colliders[*at].solid);
             state.colliders.iter().map(solid).collect()
         }
     }
