@@ -10,7 +10,7 @@ use carom_math::SimTime;
 
 use crate::events::free::Cause;
 use crate::model::narrow::look;
-use crate::{PairIx, World};
+use crate::{IslandIx, PairIx, World};
 
 impl World {
     /// Islands that came to move since the last time begin their motion; what goes otherwise than they say joins the engine. Whether
@@ -34,7 +34,7 @@ impl World {
     }
 
     /// An island moves by events until its next mode change.
-    fn move_analytically(&mut self, place: u32, time: SimTime) {
+    fn move_analytically(&mut self, place: IslandIx, time: SimTime) {
         let Some(group) = self.closed.get(place) else {
             return;
         };
@@ -60,7 +60,7 @@ impl World {
     }
 
     /// The next pieces of the members of an island in analytic motion, and their impacts.
-    pub(crate) fn begin_next_pieces(&mut self, place: u32, time: SimTime) {
+    pub(crate) fn begin_next_pieces(&mut self, place: IslandIx, time: SimTime) {
         let Some(group) = self.closed.get(place) else {
             return;
         };
@@ -75,7 +75,7 @@ impl World {
     }
 
     /// Ends the analytic motion of an island; its members, if it was in motion.
-    pub(crate) fn land_group(&mut self, place: u32, time: SimTime) -> Vec<u32> {
+    pub(crate) fn land_group(&mut self, place: IslandIx, time: SimTime) -> Vec<u32> {
         let Some(group) = self
             .closed
             .get(place)

@@ -6,11 +6,11 @@ use std::collections::BTreeSet;
 use carom_math::SimTime;
 
 use crate::model::narrow::look;
-use crate::{EventKind, PairIx, World};
+use crate::{EventKind, IslandIx, PairIx, World};
 
 impl World {
     /// Takes a group apart; its members keep their motions until they are given others.
-    pub(crate) fn dissolve(&mut self, place: u32, time: SimTime) -> Vec<u32> {
+    pub(crate) fn dissolve(&mut self, place: IslandIx, time: SimTime) -> Vec<u32> {
         let landed = self.land_group(place, time);
         let Some(group) = self.closed.remove(place) else {
             return Vec::new();
@@ -33,7 +33,7 @@ impl World {
     /// impacts there, until this changes.
     ///
     /// What opens with t³ is looked at again, after twice the time.
-    pub(crate) fn tell_opened(&mut self, place: u32, time: SimTime) {
+    pub(crate) fn tell_opened(&mut self, place: IslandIx, time: SimTime) {
         let Some(group) = self.closed.get(place) else {
             return;
         };
@@ -107,7 +107,7 @@ impl World {
     }
 
     /// An analytic island that has been at rest for long enough falls asleep.
-    pub(crate) fn fall_asleep(&mut self, place: u32, time: SimTime) {
+    pub(crate) fn fall_asleep(&mut self, place: IslandIx, time: SimTime) {
         let members = self.dissolve(place, time);
         let mut lying = Vec::new();
         for &index in &members {

@@ -14,7 +14,7 @@ use crate::analytic::islands::{give_motions, kept};
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, land};
 use crate::analytic::touching::{Gathered, Looks, gather};
 use crate::events::resolve::PairImpact;
-use crate::{BodyKind, ContactMode, Mode, PairIx, World};
+use crate::{BodyKind, ContactMode, IslandIx, Mode, PairIx, World};
 
 impl World {
     /// Closed forms for bodies that wait for their method, and for what their groups hold.
@@ -220,7 +220,7 @@ impl World {
         };
         let mut speed = speed;
         let groups = gathered.places.iter();
-        let groups: Vec<u32> = groups
+        let groups: Vec<IslandIx> = groups
             .map(|index| self.bodies.get(*index).membership.group)
             .collect();
         for place in groups {

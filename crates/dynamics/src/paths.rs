@@ -10,7 +10,7 @@ use crate::analytic::islands::tips::path_of;
 use crate::analytic::modes::NotMine;
 use crate::analytic::tipping::Limit;
 use crate::analytic::touching::Gathered;
-use crate::{Mode, World};
+use crate::{IslandIx, Mode, World};
 
 /// Sub-steps within which what a landing opens comes back, if it counts as closed. With 1 boxes that rock take 1.2 of the time.
 const BACK: f64 = 4.0;
@@ -53,7 +53,7 @@ impl World {
     }
 
     /// A group that turns goes on with the next stretch of its path; whether it does.
-    pub(crate) fn continue_path(&mut self, place: u32, time: SimTime) -> bool {
+    pub(crate) fn continue_path(&mut self, place: IslandIx, time: SimTime) -> bool {
         let Some(group) = self.closed.get(place) else {
             return false;
         };

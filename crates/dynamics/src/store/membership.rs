@@ -2,14 +2,13 @@
 
 use carom_math::SimTime;
 
-/// No group.
-const NO_GROUP: u32 = u32::MAX;
+use crate::{IslandIx, Ix};
 
 /// Membership of a body in groups.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Membership {
-    /// Place of the group, or [`NO_GROUP`].
-    pub(crate) group: u32,
+    /// Place of the group, or [`Ix::NONE`].
+    pub(crate) group: IslandIx,
     /// When a mode solve failed last, unless something happened since.
     failed: SimTime,
 }
@@ -17,19 +16,19 @@ pub(crate) struct Membership {
 impl Default for Membership {
     fn default() -> Self {
         Self {
-            group: NO_GROUP,
+            group: IslandIx::NONE,
             failed: SimTime::NEVER,
         }
     }
 }
 
 impl Membership {
-    pub(crate) const fn is_closed(self) -> bool {
-        self.group != NO_GROUP
+    pub(crate) fn is_closed(self) -> bool {
+        self.group != IslandIx::NONE
     }
 
     /// A member of the group at `place`.
-    pub(crate) fn of(place: u32) -> Self {
+    pub(crate) fn of(place: IslandIx) -> Self {
         Self {
             group: place,
             ..Self::default()

@@ -308,7 +308,7 @@ impl BodyState {
     }
 
     /// Of a body that gets its method before time goes on: in an island, or outside.
-    const fn held(&self) -> Regime {
+    fn held(&self) -> Regime {
         if self.membership.is_closed() {
             Regime::Analytic(Form::Pending)
         } else {

@@ -43,6 +43,8 @@ numbers! {
     ColliderIx
     /// A pair of shapes.
     PairIx
+    /// An analytic island.
+    IslandIx
     /// A foreseen impact of free bodies.
     ImpactIx
 }

@@ -10,7 +10,7 @@ use crate::model::narrow::look;
 use crate::motion::flight::begin_held_piece;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
-use crate::{ContactMode, PairIx};
+use crate::{ContactMode, IslandIx, PairIx};
 
 impl Group {
     /// Whether its members go on as its mode says, and nothing lies deep in one of them.
@@ -89,7 +89,7 @@ impl Closed {
     }
 
     /// What was predicted for the members of a group is stale, but their motions are the group's.
-    pub(crate) fn renew_members(&mut self, bodies: &mut Bodies, place: u32) {
+    pub(crate) fn renew_members(&mut self, bodies: &mut Bodies, place: IslandIx) {
         let Some(group) = self.get_mut(place) else {
             return;
         };

@@ -14,7 +14,7 @@ use crate::store::bodies::Bodies;
 use crate::store::membership::Membership;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::slots::{Slots, grown};
-use crate::{ContactMode, Mode, PairIx};
+use crate::{ContactMode, IslandIx, Mode, PairIx};
 
 /// What is no longer than this is one instant, in s.
 const INSTANT: f64 = 1e-12;
@@ -37,12 +37,12 @@ const OFTEN_EXACT: u32 = 4096;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Closed {
     /// With the stamp that tells a group from those that had its place before.
-    groups: Slots<u32, (u64, Group)>,
+    groups: Slots<IslandIx, (u64, Group)>,
     /// Stale entries are dropped when they come up: a group's stamp tells. Before a group changes they are looks at what it opened.
-    changes: BinaryHeap<Reverse<(SimTime, u32, u64)>>,
+    changes: BinaryHeap<Reverse<(SimTime, IslandIx, u64)>>,
     stamp: u64,
     /// Groups that are to begin their rest (`true`) or their motion at this instant, with their stamps.
-    begun: Vec<(bool, u32, u64)>,
+    begun: Vec<(bool, IslandIx, u64)>,
     /// By place of a body: when its mode solves of one instant began, and how many they were; the same of those
     /// in the time of a sub-step.
     stalls: Vec<[(SimTime, u32); 2]>,
@@ -206,13 +206,13 @@ impl Closed {
     }
 
     /// Takes out the change that is due next: its instant, and the place of its group.
-    pub(crate) fn pop(&mut self) -> Option<(SimTime, u32)> {
+    pub(crate) fn pop(&mut self) -> Option<(SimTime, IslandIx)> {
         self.next()?;
         let Reverse((time, place, _)) = self.changes.pop()?;
         Some((time, place))
     }
 
-    pub(crate) fn get(&self, place: u32) -> Option<&Group> {
+    pub(crate) fn get(&self, place: IslandIx) -> Option<&Group> {
         self.groups.get(place).map(|(_, group)| group)
     }
 
@@ -226,7 +226,7 @@ impl Closed {
     }
 
     /// Enters a group, and its members into it; its place.
-    pub(crate) fn insert(&mut self, bodies: &mut Bodies, group: Group) -> u32 {
+    pub(crate) fn insert(&mut self, bodies: &mut Bodies, group: Group) -> IslandIx {
         self.stamp += 1;
         let (members, since, until) = (group.indices(), group.since, group.until);
         let opens = !group.opened().is_empty();
@@ -244,7 +244,7 @@ impl Closed {
     }
 
     /// When a group has a look at what its mode opened, unless it changes before.
-    pub(crate) fn looks_at(&mut self, place: u32, time: SimTime) {
+    pub(crate) fn looks_at(&mut self, place: IslandIx, time: SimTime) {
         if let Some((stamp, group)) = self.groups.get(place)
             && group.until.is_none_or(|until| time < until)
         {
@@ -253,7 +253,7 @@ impl Closed {
     }
 
     /// When a group changes next.
-    pub(crate) fn changes_at(&mut self, place: u32, change: SimTime) {
+    pub(crate) fn changes_at(&mut self, place: IslandIx, change: SimTime) {
         if let Some((stamp, group)) = self.groups.get_mut(place) {
             group.until = Some(change);
             self.changes.push(Reverse((change, place, *stamp)));
@@ -261,15 +261,15 @@ impl Closed {
     }
 
     /// A group rests, or begins its motion, before time goes on.
-    pub(crate) fn begins(&mut self, place: u32, rests: bool) {
+    pub(crate) fn begins(&mut self, place: IslandIx, rests: bool) {
         if let Some((stamp, _)) = self.groups.get(place) {
             self.begun.push((rests, place, *stamp));
         }
     }
 
     /// Places of the groups that are to begin their rest, or their motion, and are still there.
-    pub(crate) fn to_begin(&self, rest: bool) -> Vec<u32> {
-        let stands = |&(rests, place, stamp): &(bool, u32, u64)| {
+    pub(crate) fn to_begin(&self, rest: bool) -> Vec<IslandIx> {
+        let stands = |&(rests, place, stamp): &(bool, IslandIx, u64)| {
             let (held, _) = self.groups.get(place)?;
             (rests == rest && *held == stamp).then_some(place)
         };
@@ -277,17 +277,17 @@ impl Closed {
     }
 
     /// The same, once.
-    pub(crate) fn take_begun(&mut self, rest: bool) -> Vec<u32> {
+    pub(crate) fn take_begun(&mut self, rest: bool) -> Vec<IslandIx> {
         let places = self.to_begin(rest);
         self.begun.retain(|(rests, ..)| *rests != rest);
         places
     }
 
-    pub(crate) fn get_mut(&mut self, place: u32) -> Option<&mut Group> {
+    pub(crate) fn get_mut(&mut self, place: IslandIx) -> Option<&mut Group> {
         self.groups.get_mut(place).map(|(_, group)| group)
     }
 
-    pub(crate) fn remove(&mut self, place: u32) -> Option<Group> {
+    pub(crate) fn remove(&mut self, place: IslandIx) -> Option<Group> {
         self.groups.remove(place).map(|(_, group)| group)
     }
 
