@@ -10,7 +10,7 @@ use carom_math::SimTime;
 
 use crate::events::free::Cause;
 use crate::model::narrow::look;
-use crate::{IslandIx, PairIx, World};
+use crate::{BodyIx, IslandIx, PairIx, World};
 
 impl World {
     /// Islands that came to move since the last time begin their motion; what goes otherwise than they say joins the engine. Whether
@@ -75,7 +75,7 @@ impl World {
     }
 
     /// Ends the analytic motion of an island; its members, if it was in motion.
-    pub(crate) fn land_group(&mut self, place: IslandIx, time: SimTime) -> Vec<u32> {
+    pub(crate) fn land_group(&mut self, place: IslandIx, time: SimTime) -> Vec<BodyIx> {
         let Some(group) = self
             .closed
             .get(place)
@@ -110,7 +110,7 @@ impl World {
     }
 
     /// Gives the island of a body back, if it is in analytic motion: its motions stand, and its mode; whether it was.
-    pub(crate) fn hand_back_of(&mut self, index: u32, time: SimTime) -> bool {
+    pub(crate) fn hand_back_of(&mut self, index: BodyIx, time: SimTime) -> bool {
         let moves_analytically = self.bodies.get(index).moves_analytically();
         if moves_analytically {
             for index in self.land_group(self.bodies.get(index).membership.group, time) {
@@ -135,7 +135,7 @@ impl World {
     }
 
     /// Gives all groups that touch a body back.
-    pub(crate) fn hand_back_around(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn hand_back_around(&mut self, index: BodyIx, time: SimTime) {
         self.hand_back_of(index, time);
         for slot in 0..self.bodies.get(index).pairs.len() {
             let pair = self.pairs.get(self.bodies.get(index).pairs[slot]);

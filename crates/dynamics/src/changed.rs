@@ -9,11 +9,11 @@ use crate::model::graph::neighbours;
 use crate::model::narrow::look;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pair;
-use crate::{ColliderIx, EventKind, Mode, PairIx, World};
+use crate::{BodyIx, ColliderIx, EventKind, Mode, PairIx, World};
 
 impl World {
     /// A body with a new motion: its events are predicted again, and so are those of the contact group that it was or is in.
-    pub(crate) fn deflected(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn deflected(&mut self, index: BodyIx, time: SimTime) {
         if self.settings.mode == Mode::Stepped {
             // The next sub-step takes it from here.
             return self.bodies.touch(index);
@@ -24,7 +24,7 @@ impl World {
     }
 
     /// A body with a new motion: its events are predicted anew, or it has another box.
-    pub(crate) fn redirect(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn redirect(&mut self, index: BodyIx, time: SimTime) {
         if self.bodies.get(index).is_asleep() {
             self.wake(index, time);
         }
@@ -44,7 +44,7 @@ impl World {
     }
 
     /// Predicts impacts of all free bodies near a body that rests with it.
-    pub(crate) fn show(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn show(&mut self, index: BodyIx, time: SimTime) {
         let mut free = Vec::new();
         for &at in &self.bodies.get(index).colliders.clone() {
             let bounds = self.bodies.colliders[at].fat;
@@ -79,13 +79,13 @@ impl World {
     }
 
     /// Wakes a body and all sleepers that it touches, and so on.
-    pub(crate) fn wake(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn wake(&mut self, index: BodyIx, time: SimTime) {
         let woken = self.woken_with(index, time);
         self.resume_woken(&woken, time);
     }
 
     /// Ends the sleep of a body and all sleepers that it touches, and so on; returns them.
-    pub(crate) fn woken_with(&mut self, index: u32, time: SimTime) -> Vec<u32> {
+    pub(crate) fn woken_with(&mut self, index: BodyIx, time: SimTime) -> Vec<BodyIx> {
         if self.is_engines(index) {
             self.wake_in_engine(index, time);
             return Vec::new();
@@ -96,7 +96,7 @@ impl World {
 
     /// Ends the sleep of bodies, the last one first, and of all sleepers that they touch, and so on: those that the engine has it
     /// wakes, all others are returned.
-    fn wake_all(&mut self, mut waking: Vec<u32>, time: SimTime) -> Vec<u32> {
+    fn wake_all(&mut self, mut waking: Vec<BodyIx>, time: SimTime) -> Vec<BodyIx> {
         let (mut members, mut others) = (Vec::new(), Vec::new());
         while let Some(index) = waking.pop() {
             let state = self.bodies.get(index);
@@ -121,13 +121,13 @@ impl World {
     }
 
     /// Wakes all sleepers that touch a body, and itself: what held them has changed.
-    pub(crate) fn wake_around(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn wake_around(&mut self, index: BodyIx, time: SimTime) {
         if self.is_engines(index) {
             return self.wake_in_engine(index, time);
         }
         self.hand_back_around(index, time);
         self.look_at_fresh(time);
-        let mut waking: Vec<u32> = neighbours(&self.bodies, &self.pairs, index).collect();
+        let mut waking: Vec<BodyIx> = neighbours(&self.bodies, &self.pairs, index).collect();
         waking.reverse();
         waking.push(index);
         let woken = self.wake_all(waking, time);
@@ -135,7 +135,7 @@ impl World {
     }
 
     /// Bodies that woke get their method anew; their pairs with the free bodies near them are made.
-    pub(crate) fn resume_woken(&mut self, woken: &[u32], time: SimTime) {
+    pub(crate) fn resume_woken(&mut self, woken: &[BodyIx], time: SimTime) {
         if self.settings.mode == Mode::Stepped {
             return;
         }
@@ -158,8 +158,8 @@ impl World {
     }
 
     /// Makes the pairs of a body's boxes in the tree with what is near them, free bodies too.
-    pub(crate) fn meet_near(&mut self, index: u32) {
-        let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>| {
+    pub(crate) fn meet_near(&mut self, index: BodyIx) {
+        let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<BodyIx>| {
             self.free.overlapping(bodies, bounds, near);
         };
         for slot in 0..self.bodies.get(index).colliders.len() {
@@ -172,7 +172,7 @@ impl World {
     }
 
     /// Pairs of a free body with shapes of bodies that wait for their method.
-    pub(crate) fn pair_free_body(&mut self, index: u32, shapes: &[ColliderIx]) {
+    pub(crate) fn pair_free_body(&mut self, index: BodyIx, shapes: &[ColliderIx]) {
         for slot in 0..self.bodies.get(index).colliders.len() {
             let mine = self.bodies.get(index).colliders[slot];
             self.broad
@@ -180,13 +180,13 @@ impl World {
         }
     }
 
-    pub(crate) fn refit(&mut self, index: u32, time: SimTime, h: f64) {
+    pub(crate) fn refit(&mut self, index: BodyIx, time: SimTime, h: f64) {
         self.refit_among(index, time, h, true);
     }
 
     /// [`Self::refit`]; `meets`: free bodies in the new boxes are found.
-    pub(crate) fn refit_among(&mut self, index: u32, time: SimTime, h: f64, meets: bool) {
-        let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>| {
+    pub(crate) fn refit_among(&mut self, index: BodyIx, time: SimTime, h: f64, meets: bool) {
+        let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<BodyIx>| {
             self.free.overlapping(bodies, bounds, near);
         };
         let free: &Overlapping<'_> = &free;

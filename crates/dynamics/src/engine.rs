@@ -4,7 +4,7 @@ use carom_math::SimTime;
 
 use crate::stepping::rules::Rules;
 use crate::stepping::{Stepping, accepted, place};
-use crate::{EventKind, Mode, World};
+use crate::{BodyIx, EventKind, Mode, World};
 
 impl World {
     /// Calls `f` with the engine beside the world; the engine is back in its place afterwards.
@@ -125,7 +125,7 @@ impl World {
         }
         let under_way = stepping.engine.fast();
         let under_way = under_way.filter_map(|id| stepping.engine.state(id).ok());
-        let mut going: Vec<u32> = under_way.map(|state| place(&state)).collect();
+        let mut going: Vec<BodyIx> = under_way.map(|state| place(&state)).collect();
         going.extend(&self.bodies.touched);
         going.sort_unstable();
         going.dedup();
@@ -168,12 +168,12 @@ impl World {
     }
 
     /// Whether the sleep of a body is the engine's to end.
-    pub(crate) fn is_engines(&self, index: u32) -> bool {
+    pub(crate) fn is_engines(&self, index: BodyIx) -> bool {
         self.settings.mode == Mode::Stepped || self.bodies.get(index).in_engine()
     }
 
     /// Wakes a body, what sleeps with it and what sleeps in touch with it.
-    pub(crate) fn wake_in_engine(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn wake_in_engine(&mut self, index: BodyIx, time: SimTime) {
         let there = self.with_engine(|world, stepping| {
             if let Some(id) = stepping.id(index) {
                 accepted(stepping.engine.wake(id));
@@ -198,7 +198,7 @@ impl World {
 
     /// A body that goes, or comes back as another one, leaves the engine; whether it was there: then its touches end, and sleepers
     /// on it wake, which is for the caller to see to.
-    pub(crate) fn leave_engine(&mut self, index: u32, time: SimTime) -> bool {
+    pub(crate) fn leave_engine(&mut self, index: BodyIx, time: SimTime) -> bool {
         let known = self.with_engine(|world, stepping| {
             let known = stepping.id(index).is_some();
             if known {
@@ -216,7 +216,7 @@ impl World {
     }
 
     /// Asks anew how the contacts of a body meet, in the engine.
-    pub(crate) fn resurface(&mut self, index: u32) {
+    pub(crate) fn resurface(&mut self, index: BodyIx) {
         self.with_engine(|world, stepping| {
             if let Some(id) = stepping.id(index) {
                 accepted(stepping.engine.resurface(id, &world.rules()));

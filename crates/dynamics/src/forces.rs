@@ -8,15 +8,15 @@ use std::collections::BTreeSet;
 
 use carom_math::{SimTime, Vec2};
 
-use crate::World;
 use crate::stepping::Stepping;
+use crate::{BodyIx, World};
 
 impl World {
     /// Forces of the step that begins, and would end at `end`.
     pub(crate) fn begin_forces(&mut self, end: SimTime) {
         let now = self.clock.now;
         self.joins.forced_until = end;
-        let (pushed, forced): (Vec<u32>, Vec<u32>) =
+        let (pushed, forced): (Vec<BodyIx>, Vec<BodyIx>) =
             (self.forced.iter()).partition(|index| self.has_rows(**index));
         for index in pushed {
             self.bodies.get_mut(index).uncommon_mut().acted = now;
@@ -42,8 +42,9 @@ impl World {
     pub(crate) fn end_forces(&mut self) {
         let now = self.clock.now;
         let forced = core::mem::take(&mut self.forced);
-        let waits = |index: &u32| self.bodies.get(*index).uncommon().pending != (Vec2::ZERO, 0.0);
-        let (pushed, forced): (Vec<u32>, Vec<u32>) = forced.into_iter().partition(waits);
+        let waits =
+            |index: &BodyIx| self.bodies.get(*index).uncommon().pending != (Vec2::ZERO, 0.0);
+        let (pushed, forced): (Vec<BodyIx>, Vec<BodyIx>) = forced.into_iter().partition(waits);
         for index in pushed {
             let acts = self.bodies.get_mut(index).uncommon_mut();
             acts.owe_until(now, self.clock.h);
@@ -79,13 +80,13 @@ impl World {
     }
 
     /// Bodies that forces act on in this step, or did in the last sub-step of the engine.
-    pub(crate) fn all_forced(&self) -> BTreeSet<u32> {
+    pub(crate) fn all_forced(&self) -> BTreeSet<BodyIx> {
         let all = self.forced.iter().chain(&self.joins.pushed).copied();
         all.filter(|index| self.bodies.is_alive(*index)).collect()
     }
 
     /// Whether the engine moves a body that touches something there, or did when forces began to act on it.
-    fn has_rows(&self, index: u32) -> bool {
+    fn has_rows(&self, index: BodyIx) -> bool {
         let touches = || {
             let stepping = self.stepping.as_ref()?;
             let mut contacts = stepping.engine.contacts_of(stepping.id(index)?).ok()?;

@@ -6,11 +6,11 @@ use std::collections::BTreeSet;
 use carom_math::SimTime;
 
 use crate::model::narrow::look;
-use crate::{EventKind, IslandIx, PairIx, World};
+use crate::{BodyIx, EventKind, IslandIx, PairIx, Two, World};
 
 impl World {
     /// Takes a group apart; its members keep their motions until they are given others.
-    pub(crate) fn dissolve(&mut self, place: IslandIx, time: SimTime) -> Vec<u32> {
+    pub(crate) fn dissolve(&mut self, place: IslandIx, time: SimTime) -> Vec<BodyIx> {
         let landed = self.land_group(place, time);
         let Some(group) = self.closed.remove(place) else {
             return Vec::new();
@@ -59,7 +59,7 @@ impl World {
     }
 
     /// A body is free from here on; the modes of its group are solved for without it.
-    pub(crate) fn leave_group(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn leave_group(&mut self, index: BodyIx, time: SimTime) {
         let place = self.bodies.get(index).membership.group;
         if let Some(group) = self.closed.get(place) {
             let speed = group.speed;
@@ -70,7 +70,7 @@ impl World {
     }
 
     /// A pair is no more: a group that it held together is taken apart.
-    pub(crate) fn loosen(&mut self, pair: PairIx, bodies: (u32, u32), time: SimTime) {
+    pub(crate) fn loosen(&mut self, pair: PairIx, bodies: Two<BodyIx>, time: SimTime) {
         for index in [bodies.0, bodies.1] {
             let place = self.bodies.get(index).membership.group;
             if (self.closed.get(place)).is_some_and(|group| group.touches_by(pair)) {

@@ -14,12 +14,12 @@ use crate::analytic::islands::{give_motions, kept};
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, land};
 use crate::analytic::touching::{Gathered, Looks, gather};
 use crate::events::resolve::PairImpact;
-use crate::{BodyKind, ContactMode, IslandIx, Mode, PairIx, World};
+use crate::{BodyIx, BodyKind, ContactMode, IslandIx, Mode, PairIx, World};
 
 impl World {
     /// Closed forms for bodies that wait for their method, and for what their groups hold.
-    pub(crate) fn close_groups_within(&mut self, waiting: &[u32], time: SimTime) {
-        let of = |index: &u32| self.bodies.get(*index).pairs.iter().copied();
+    pub(crate) fn close_groups_within(&mut self, waiting: &[BodyIx], time: SimTime) {
+        let of = |index: &BodyIx| self.bodies.get(*index).pairs.iter().copied();
         let places = self.pairs.by_colliders(waiting.iter().flat_map(of));
         for place in places {
             self.close_group_of(place, time);
@@ -110,7 +110,7 @@ impl World {
     }
 
     /// A member of a group has another motion: the group's modes are solved for anew, with the contacts that it has now.
-    pub(crate) fn regroup(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn regroup(&mut self, index: BodyIx, time: SimTime) {
         if self.settings.mode == Mode::Stepped || !self.bodies.pull.fields.is_empty() {
             return;
         }
@@ -138,7 +138,7 @@ impl World {
     }
 
     /// Solves for the modes of a body's group anew, whether its members have other motions or not.
-    pub(crate) fn solve_modes_anew(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn solve_modes_anew(&mut self, index: BodyIx, time: SimTime) {
         let place = self.bodies.get(index).membership.group;
         if let Some(group) = self.closed.get(place) {
             let speed = group.speed;
@@ -148,7 +148,7 @@ impl World {
     }
 
     /// A body that goes on as before has one contact more: the modes of its island are solved for anew.
-    pub(crate) fn gain_contact(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn gain_contact(&mut self, index: BodyIx, time: SimTime) {
         if self.bodies.get(index).membership.is_closed() {
             self.solve_modes_anew(index, time);
         } else {
@@ -157,20 +157,20 @@ impl World {
     }
 
     /// Whether two bodies belong to one analytic island.
-    pub(crate) fn share_group(&self, a: u32, b: u32) -> bool {
+    pub(crate) fn share_group(&self, a: BodyIx, b: BodyIx) -> bool {
         let [one, other] = [a, b].map(|index| self.bodies.get(index).membership);
         one.is_closed() && one.group == other.group
     }
 
     /// Whether something may hold a body that just changed its motion: what bounces off does not.
-    fn may_last(&self, index: u32) -> bool {
+    fn may_last(&self, index: BodyIx) -> bool {
         let pairs = self.bodies.get(index).pairs.iter();
         pairs
             .map(|place| self.pairs.get(*place))
             .any(|pair| pair.lasting || (pair.touching && pair.material.restitution == 0.0))
     }
 
-    pub(crate) fn solve_modes_of(&mut self, members: &[u32], time: SimTime, speed: f64) {
+    pub(crate) fn solve_modes_of(&mut self, members: &[BodyIx], time: SimTime, speed: f64) {
         if self.stalls(members, time) {
             // Solved for again at this instant it would go on in circles.
             self.fail(members, time);
@@ -185,19 +185,19 @@ impl World {
 
     /// Counts a mode solve of an island: every one counts for some body that has not used up its number of them, so they come to an
     /// end.
-    pub(crate) fn stalls(&mut self, members: &[u32], time: SimTime) -> bool {
+    pub(crate) fn stalls(&mut self, members: &[BodyIx], time: SimTime) -> bool {
         let limits = (self.clock.h, self.settings.mode);
         let bodies = u32::try_from(members.len()).unwrap_or(u32::MAX);
-        let stalls = |index: &&u32| self.closed.stalls(**index, bodies, time, limits);
+        let stalls = |index: &&BodyIx| self.closed.stalls(**index, bodies, time, limits);
         members.iter().filter(stalls).count() > 0
     }
 
     /// Solves for the modes of the island around a body.
-    fn solve_modes_around(&mut self, index: u32, time: SimTime, speed: f64, looks: Looks) {
+    fn solve_modes_around(&mut self, index: BodyIx, time: SimTime, speed: f64, looks: Looks) {
         self.report.modes_solved += 1;
         let mut found = gather(&self.bodies, &mut self.pairs, index, time, looks);
         while let Err(seen) = &found {
-            let leaves = |index: &u32| {
+            let leaves = |index: &BodyIx| {
                 let state = self.bodies.get(*index);
                 state.rests_analytically() || state.moves_analytically()
             };
@@ -297,7 +297,7 @@ impl World {
     }
 
     /// Charges each body of an island for a mode solve.
-    fn charge(&mut self, members: &[u32], time: SimTime) {
+    fn charge(&mut self, members: &[BodyIx], time: SimTime) {
         if self.settings.mode != Mode::Hybrid {
             return;
         }
@@ -348,7 +348,7 @@ impl World {
     }
 
     /// A mode solve failed: none is made again at this instant, unless something happens.
-    fn fail(&mut self, members: &[u32], time: SimTime) {
+    fn fail(&mut self, members: &[BodyIx], time: SimTime) {
         self.charge(members, time);
         for &index in members {
             let membership = &mut self.bodies.get_mut(index).membership;
@@ -361,7 +361,7 @@ impl World {
     /// The group of a mode, and when it changes next.
     fn close(&mut self, gathered: &Gathered, moves: &GroupMove, time: SimTime, speed: f64) {
         let still = moves.bodies.iter().all(|body| *body == BodyMove::default());
-        let may_sleep = |index: &u32| self.bodies.get(*index).sleep_allowed();
+        let may_sleep = |index: &BodyIx| self.bodies.get(*index).sleep_allowed();
         let sleeps = still && gathered.dynamic().iter().all(may_sleep);
         let sleep = self.settings.sleep.filter(|_| sleeps);
         let change = match (moves.change, sleep) {
@@ -395,7 +395,7 @@ impl World {
         let members = group.indices();
         let place = self.closed.insert(&mut self.bodies, group);
         // What is driven begins to move without a touch.
-        let drives = |index: &u32| self.bodies.get(*index).kind == BodyKind::Kinematic;
+        let drives = |index: &BodyIx| self.bodies.get(*index).kind == BodyKind::Kinematic;
         let still = !turns && moves.iter().all(|body| *body == BodyMove::default());
         let rests = still && !gathered.places.iter().any(drives);
         self.closed.begins(place, rests);

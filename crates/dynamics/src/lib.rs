@@ -72,7 +72,7 @@ pub use values::report::{Refusal, StepReport};
 pub use values::settings::{Mode, PairSearch, Settings, Sleep, Softness};
 pub use world::World;
 
-pub(crate) use values::ix::{ColliderIx, ImpactIx, IslandIx, Ix, PairIx, Two};
+pub(crate) use values::ix::{BodyIx, ColliderIx, ImpactIx, IslandIx, Ix, MoverIx, PairIx, Two};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

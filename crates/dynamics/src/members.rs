@@ -8,7 +8,7 @@ use crate::stepping::Stepping;
 use crate::stepping::rules::Rules;
 use crate::stepping::rush::Haste;
 use crate::store::clock::whole;
-use crate::{BodyKind, Mode, World};
+use crate::{BodyIx, BodyKind, Mode, World};
 
 impl World {
     /// Before a sub-step: changes by a caller enter the engine, islands that are met wake, and bodies that may be met join.
@@ -136,7 +136,7 @@ impl World {
         };
         let was_made = self.joins.reached == self.clock.next();
         let touched = core::mem::take(&mut self.bodies.touched);
-        let is_carried = |index: &u32| {
+        let is_carried = |index: &BodyIx| {
             let state = self.bodies.get(*index);
             was_made && stepping.id(*index).is_some() && (state.in_engine() || !state.is_dynamic())
         };
@@ -188,10 +188,10 @@ impl World {
     }
 
     /// Places and turns of members that a caller's force acts on.
-    fn forced_members(&self, stepping: &Stepping) -> Vec<(u32, Vec2, f64)> {
+    fn forced_members(&self, stepping: &Stepping) -> Vec<(BodyIx, Vec2, f64)> {
         let mut members = self.all_forced();
         members.retain(|index| self.bodies.get(*index).in_engine());
-        let place = |index: u32| {
+        let place = |index: BodyIx| {
             let state = stepping.state(index)?;
             Some((index, state.pose.position, state.turned))
         };
@@ -199,7 +199,7 @@ impl World {
     }
 
     /// What the caller's forces and kinematic bodies did in the last sub-step.
-    fn book_work(&mut self, stepping: &Stepping, forced: &[(u32, Vec2, f64)]) {
+    fn book_work(&mut self, stepping: &Stepping, forced: &[(BodyIx, Vec2, f64)]) {
         for &(index, from, turned) in forced {
             if let Some(now) = stepping.state(index) {
                 let state = self.bodies.get(index);
@@ -217,7 +217,7 @@ impl World {
     }
 
     /// Bodies outside that may meet members before the next tick, in order.
-    fn outsiders_near(&mut self, time: SimTime, asks_all: bool) -> BTreeSet<u32> {
+    fn outsiders_near(&mut self, time: SimTime, asks_all: bool) -> BTreeSet<BodyIx> {
         let rules = Rules {
             bodies: &self.bodies,
             broad: &self.broad,
@@ -231,7 +231,7 @@ impl World {
     }
 
     /// A free body with a new motion joins if it may meet a member before the next sub-step begins.
-    pub(crate) fn meet_members(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn meet_members(&mut self, index: BodyIx, time: SimTime) {
         // Most worlds of free bodies have no members, and the grid's instants are sums with care.
         if self.bodies.member_count() == 0 {
             return;
@@ -267,7 +267,7 @@ impl World {
     }
 
     /// Has the engine know a body that rests or drives.
-    pub(crate) fn show_engine(&mut self, index: u32) {
+    pub(crate) fn show_engine(&mut self, index: BodyIx) {
         let state = self.bodies.get_mut(index);
         if state.kind == BodyKind::Kinematic {
             self.joins.drivers.insert(index);
@@ -280,7 +280,7 @@ impl World {
     }
 
     /// Counts an impact that changed the motions of `bodies`, at the price of `lost`: bodies that strike each other too often join.
-    pub(crate) fn rush(&mut self, bodies: &[u32], lost: f64, time: SimTime) {
+    pub(crate) fn rush(&mut self, bodies: &[BodyIx], lost: f64, time: SimTime) {
         if self.settings.mode != Mode::Hybrid || bodies.is_empty() {
             return;
         }

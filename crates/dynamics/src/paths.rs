@@ -10,7 +10,7 @@ use crate::analytic::islands::tips::path_of;
 use crate::analytic::modes::NotMine;
 use crate::analytic::tipping::Limit;
 use crate::analytic::touching::Gathered;
-use crate::{IslandIx, Mode, World};
+use crate::{BodyIx, IslandIx, Mode, World};
 
 /// Sub-steps within which what a landing opens comes back, if it counts as closed. With 1 boxes that rock take 1.2 of the time.
 const BACK: f64 = 4.0;
@@ -57,7 +57,7 @@ impl World {
         let Some(group) = self.closed.get(place) else {
             return false;
         };
-        let stands = |&(index, version): &(u32, u32)| self.bodies.version(index) == version;
+        let stands = |&(index, version): &(BodyIx, u32)| self.bodies.version(index) == version;
         let Some(tip) = &group.tip else {
             return false;
         };

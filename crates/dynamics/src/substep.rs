@@ -2,7 +2,7 @@
 
 use carom_math::SimTime;
 
-use crate::World;
+use crate::{BodyIx, World};
 
 impl World {
     /// One sub-step of the engine. All bodies outside of it go by events.
@@ -35,7 +35,7 @@ impl World {
     }
 
     /// A body that fell asleep: free bodies meet it as one at rest.
-    pub(crate) fn lie_down(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn lie_down(&mut self, index: BodyIx, time: SimTime) {
         self.end_unsettled(index);
         for place in self.bodies.get(index).pairs.clone() {
             let pair = self.pairs.get_mut(place);

@@ -10,7 +10,7 @@ use crate::events::resolve::PairImpact;
 use crate::model::ghost::look_at;
 use crate::model::narrow::{NOISE, TOUCH, opening_speed, pace, rest_speed};
 use crate::store::pairs::PairPoint;
-use crate::{PairIx, World};
+use crate::{BodyIx, PairIx, World};
 
 impl World {
     /// Gives all that waits at an instant its method, once all that happens at that instant has happened; whether something waited.
@@ -25,8 +25,8 @@ impl World {
         if self.strike_held_pairs(places, time) {
             return true;
         }
-        let is_unsolved = |index: &u32| self.bodies.get(*index).is_unsolved();
-        let waiting: Vec<u32> = self.unsettled.iter().copied().filter(is_unsolved).collect();
+        let is_unsolved = |index: &BodyIx| self.bodies.get(*index).is_unsolved();
+        let waiting: Vec<BodyIx> = self.unsettled.iter().copied().filter(is_unsolved).collect();
         self.close_groups_within(&waiting, time);
         self.drop_alone(time);
         self.join_unsolved(time);
@@ -47,7 +47,7 @@ impl World {
             let pairs = &mut self.pairs;
             let pair = look_at(bodies, pairs, place, time);
             pair.fresh = false;
-            let reach = |index: u32| bodies.get(index).reach;
+            let reach = |index: BodyIx| bodies.get(index).reach;
             let (a, b) = pair.bodies;
             let sunken = pair.overlaps(TOUCH * reach(a).min(reach(b)));
             self.report.sunken += u64::from(sunken);
@@ -98,7 +98,7 @@ impl World {
     /// Bodies with nothing near fly.
     fn drop_alone(&mut self, time: SimTime) {
         for island in self.unsolved_islands() {
-            let alone = |index: &u32| {
+            let alone = |index: &BodyIx| {
                 let mut pairs = self.bodies.get(*index).pairs.iter();
                 pairs.all(|place| self.pairs.get(*place).contacts.is_empty())
             };
@@ -139,7 +139,7 @@ impl World {
     }
 
     /// Whether a body outside of the engine meets one that stands for the `left` seconds to the end of the sub-step.
-    pub(crate) fn meets_waiting(&self, index: u32, ahead: (SimTime, f64)) -> bool {
+    pub(crate) fn meets_waiting(&self, index: BodyIx, ahead: (SimTime, f64)) -> bool {
         if self.joins.waiting.is_empty() {
             return false;
         }
@@ -148,15 +148,15 @@ impl World {
         waiting.any(|at| self.stands(*at) && self.meets_standing((index, way), *at, ahead))
     }
 
-    fn stands(&self, index: u32) -> bool {
+    fn stands(&self, index: BodyIx) -> bool {
         self.bodies.is_alive(index) && self.bodies.get(index).in_engine()
     }
 
     /// The same of one that stands, and of a body with the box of its way.
     fn meets_standing(
         &self,
-        (index, way): (u32, Aabb),
-        standing: u32,
+        (index, way): (BodyIx, Aabb),
+        standing: BodyIx,
         (time, left): (SimTime, f64),
     ) -> bool {
         let (state, other) = (self.bodies.get(index), self.bodies.get(standing));

@@ -15,7 +15,7 @@ use crate::store::clock::Clock;
 use crate::store::pairs::Pairs;
 use crate::values::profile::Stopwatch;
 use crate::work::Work;
-use crate::{Events, Settings, StepReport};
+use crate::{BodyIx, Events, Settings, StepReport};
 
 /// Rigid bodies and the time that passes for them.
 ///
@@ -50,7 +50,7 @@ pub struct World {
     pub(crate) closed: Closed,
     pub(crate) free: FreeBodies,
     /// Bodies that get their method before time goes on.
-    pub(crate) unsettled: BTreeSet<u32>,
+    pub(crate) unsettled: BTreeSet<BodyIx>,
     pub(crate) events: Events,
     pub(crate) report: StepReport,
     pub(crate) work: Work,
@@ -59,7 +59,7 @@ pub struct World {
     /// Bodies that the engine moves until the present sub-step ends.
     pub(crate) handed_over: u64,
     /// Bodies with a force that waits for a step or acts during this one.
-    pub(crate) forced: Vec<u32>,
+    pub(crate) forced: Vec<BodyIx>,
     pub(crate) stopwatch: Stopwatch,
     /// The engine of bodies in contact.
     pub(crate) stepping: Option<Box<Stepping>>,

@@ -3,7 +3,6 @@
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
-use crate::PairIx;
 use crate::analytic::modes::{GroupMove, NotMine, Touch, hold, solve_modes, stand};
 use crate::impact::ImpactBody;
 use crate::model::approach::{Approach, approach, opening};
@@ -13,6 +12,7 @@ use crate::model::graph::{ROWS, neighbours};
 use crate::model::narrow::{SUNK, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
+use crate::{BodyIx, PairIx};
 
 /// Whether the contacts of all pairs are those of this instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub(crate) enum Looks {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gathered {
     /// Bodies of the world, in the order of `bodies`.
-    pub(crate) places: Vec<u32>,
+    pub(crate) places: Vec<BodyIx>,
     pub(crate) bodies: Vec<ImpactBody>,
     /// Their accelerations by all that is no contact, in m/s² and rad/s².
     pub(crate) pulls: Vec<(Vec2, f64)>,
@@ -42,7 +42,7 @@ pub(crate) struct Gathered {
 
 impl Gathered {
     /// Places of those that move by forces.
-    pub(crate) fn dynamic(&self) -> Vec<u32> {
+    pub(crate) fn dynamic(&self) -> Vec<BodyIx> {
         let all = self.places.iter().zip(&self.bodies);
         all.filter(|(_, body)| body.inverse_mass > 0.0)
             .map(|(index, _)| *index)
@@ -129,7 +129,7 @@ impl Gathered {
         self.move_by(&held);
     }
 
-    fn place_of(&mut self, bodies: &Bodies, index: u32, time: SimTime) -> usize {
+    fn place_of(&mut self, bodies: &Bodies, index: BodyIx, time: SimTime) -> usize {
         if let Some(place) = self.places.iter().position(|known| *known == index) {
             return place;
         }
@@ -154,10 +154,10 @@ fn ends_of(bodies: &[ImpactBody], touch: &Touch) -> (ImpactBody, ImpactBody) {
 pub(crate) fn gather(
     bodies: &Bodies,
     pairs: &mut Pairs,
-    index: u32,
+    index: BodyIx,
     time: SimTime,
     looks: Looks,
-) -> Result<Gathered, Vec<u32>> {
+) -> Result<Gathered, Vec<BodyIx>> {
     let mut found = Gathered::default();
     found.place_of(bodies, index, time);
     let (mut next, mut rows) = (0, 0);

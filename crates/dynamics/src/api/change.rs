@@ -15,7 +15,9 @@ use crate::store::course::Course;
 use crate::store::pull::Pull;
 use crate::store::state::BodyState;
 use crate::values::error::{check_finite, check_vec2};
-use crate::{BodyDef, BodyError, BodyId, BodyKind, Field, Filter, Force, Impulse, Mode, World};
+use crate::{
+    BodyDef, BodyError, BodyId, BodyIx, BodyKind, Field, Filter, Force, Impulse, Mode, World,
+};
 
 impl World {
     /// Places a body's frame anew; its velocity stays.
@@ -230,7 +232,7 @@ impl World {
     /// Changes what pulls at all bodies; what it adds to their potential energy is brought in from outside.
     pub(crate) fn change_pull(&mut self, change: impl FnOnce(&mut Pull)) {
         let now = self.clock.now;
-        let all: Vec<u32> = self.bodies.indices().collect();
+        let all: Vec<BodyIx> = self.bodies.indices().collect();
         for &index in &all {
             // No closed form holds in other fields than it was found in.
             let group = self.bodies.get(index).membership.group;
@@ -267,14 +269,14 @@ impl World {
 
     /// A caller's change of a body: its energy counts as brought in from outside, sleepers that
     /// touch it wake, and what was predicted for it is predicted anew.
-    pub(crate) fn disturb(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
+    pub(crate) fn disturb(&mut self, index: BodyIx, change: impl FnOnce(&mut BodyState)) {
         self.alter(index, change);
         self.unsettle_on(index, self.clock.now);
         self.bodies.check_regime(index, self.settings.mode);
     }
 
     /// [`Self::disturb`], but for what rests on the body: it is not yet where its pairs are made.
-    pub(crate) fn alter(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
+    pub(crate) fn alter(&mut self, index: BodyIx, change: impl FnOnce(&mut BodyState)) {
         let now = self.clock.now;
         self.wake_around(index, now);
         let before = self.bodies.energy_of(index, now);
@@ -295,7 +297,7 @@ impl World {
     /// A kinematic body has no pairs with what sleeps: it is looked for by boxes.
     ///
     /// A fixed body that was put into sleepers wakes them; what sleeps beside it sleeps on.
-    pub(crate) fn unsettle_on(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn unsettle_on(&mut self, index: BodyIx, time: SimTime) {
         if self.settings.mode == Mode::Stepped {
             // The engine wakes the sleepers that it was put into.
             return;
@@ -305,7 +307,7 @@ impl World {
             BodyKind::Kinematic => true,
             BodyKind::Fixed => false,
         };
-        let mut around: Vec<u32> = Vec::new();
+        let mut around: Vec<BodyIx> = Vec::new();
         for place in &self.bodies.get(index).pairs {
             let pair = self.pairs.get(*place);
             if pair.touching {
@@ -346,7 +348,7 @@ impl World {
     }
 
     /// A body that is new where it is: it gets its flight, its boxes and its pairs.
-    pub(crate) fn arrive(&mut self, index: u32) {
+    pub(crate) fn arrive(&mut self, index: BodyIx) {
         let (now, mode) = (self.clock.now, self.settings.mode);
         if mode == Mode::Stepped {
             self.bodies.touch(index);

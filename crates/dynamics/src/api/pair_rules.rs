@@ -1,6 +1,6 @@
 //! What a caller says of two bodies alone: the material between them, and whether they collide at all.
 
-use crate::{BodyError, BodyId, PairMaterial, World};
+use crate::{BodyError, BodyId, BodyIx, PairMaterial, World};
 
 impl World {
     /// Gives two bodies a friction and restitution of their own, instead of the mixed ones.
@@ -33,7 +33,7 @@ impl World {
     }
 
     /// Gives the pairs of two bodies the material that they have now.
-    fn mix_anew(&mut self, ends: [u32; 2], (a, b): (BodyId, BodyId)) {
+    fn mix_anew(&mut self, ends: [BodyIx; 2], (a, b): (BodyId, BodyId)) {
         self.resurface(ends[0]);
         for place in self.bodies.get(ends[0]).pairs.clone() {
             let pair = self.pairs.get_mut(place);
@@ -75,7 +75,7 @@ impl World {
     }
 
     /// Places of two bodies, and their ids in order.
-    fn two(&self, a: BodyId, b: BodyId) -> Result<([u32; 2], (BodyId, BodyId)), BodyError> {
+    fn two(&self, a: BodyId, b: BodyId) -> Result<([BodyIx; 2], (BodyId, BodyId)), BodyError> {
         let ends = [self.bodies.find(a)?, self.bodies.find(b)?];
         if a == b {
             return Err(BodyError::SameBody(a));

@@ -8,7 +8,7 @@ use carom_geometry::{Aabb, Shape};
 use carom_math::{Pose, Vec2};
 
 use crate::store::state::{BodyState, Collider};
-use crate::{BodyId, ColliderIx, Filter, Ix, Mode, World};
+use crate::{BodyId, BodyIx, ColliderIx, Filter, Ix, Mode, World};
 
 /// What a ray met first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -395,7 +395,7 @@ fn box_of_way(start: Aabb, way: Vec2, max: f64) -> Aabb {
 }
 
 /// A body and which of its shapes.
-type Place = (u32, usize);
+type Place = (BodyIx, usize);
 
 #[cfg(test)]
 mod tests;

@@ -12,7 +12,8 @@ use crate::store::mass::{mass_of, reach_of};
 use crate::store::state::BodyState;
 use crate::values::error::{check_finite, check_vec2};
 use crate::{
-    BodyDef, BodyError, BodyId, BodyKind, ColliderIx, Material, Settings, SettingsError, World,
+    BodyDef, BodyError, BodyId, BodyIx, BodyKind, ColliderIx, Material, Settings, SettingsError,
+    World,
 };
 
 impl World {
@@ -217,7 +218,7 @@ impl World {
     }
 
     /// Takes a body out of all that holds it, alters it, and lets it arrive as if it were new.
-    pub(crate) fn remake(&mut self, index: u32, change: impl FnOnce(&mut BodyState)) {
+    pub(crate) fn remake(&mut self, index: BodyIx, change: impl FnOnce(&mut BodyState)) {
         self.leave_all(index);
         self.alter(index, change);
         // Pairs are made by kind and surface: boxes that are new find them anew.
@@ -228,7 +229,7 @@ impl World {
     }
 
     /// Takes a body out of the engine and all its pairs.
-    fn leave_all(&mut self, index: u32) {
+    fn leave_all(&mut self, index: BodyIx) {
         let now = self.clock.now;
         self.leave(index, now);
         self.wake_around(index, now);

@@ -18,8 +18,9 @@ use crate::store::state::{BodyState, Collider, Surface};
 use crate::values::profile::Stopwatch;
 use crate::work::Work;
 use crate::{
-    Body, BodyDef, BodyError, BodyId, BodyKind, ColliderIx, Contact, EnergyLedger, Events, Filter,
-    Material, Mode, Momentum, PairIx, Settings, SettingsError, StepProfile, StepReport, World,
+    Body, BodyDef, BodyError, BodyId, BodyIx, BodyKind, ColliderIx, Contact, EnergyLedger, Events,
+    Filter, Ix, Material, Mode, Momentum, PairIx, Settings, SettingsError, StepProfile, StepReport,
+    World,
 };
 
 /// So many of the shapes that came last are looked through for one that is alike.
@@ -206,7 +207,7 @@ impl World {
     fn contacts_in(
         &self,
         mut places: Vec<PairIx>,
-        of: Option<u32>,
+        of: Option<BodyIx>,
     ) -> impl Iterator<Item = Contact> + use<'_> {
         places.retain(|place| self.pairs.get(*place).told);
         let stepped = self.stepping.iter();
@@ -314,7 +315,7 @@ impl World {
         hash.write_time(self.clock.now);
         for body in self.bodies() {
             let id = body.id();
-            hash.write_u64(u64::from(id.index) << 32 | u64::from(id.generation));
+            hash.write_u64(u64::from(id.index.number()) << 32 | u64::from(id.generation));
             hash.write_vec2(body.centre());
             hash.write_vec2(body.state.rotation_at(self.clock.now).x_axis());
             hash.write_vec2(body.velocity());
@@ -333,7 +334,7 @@ impl World {
     }
 
     /// Gives the places of a body's shapes to those that come next.
-    pub(crate) fn free_shapes(&mut self, index: u32) {
+    pub(crate) fn free_shapes(&mut self, index: BodyIx) {
         let freed = self.bodies.get(index).colliders.clone();
         self.bodies.free_colliders.extend(&freed);
     }
@@ -341,7 +342,7 @@ impl World {
     /// Gives a body its shapes.
     pub(crate) fn add_shapes(
         &mut self,
-        index: u32,
+        index: BodyIx,
         shapes: Vec<(Shape, Material)>,
         filter: Filter,
         centroid: Vec2,
@@ -356,7 +357,7 @@ impl World {
     /// Puts a shape of a body among all shapes, and returns its place there.
     fn add_collider(
         &mut self,
-        body: u32,
+        body: BodyIx,
         shape: Shape,
         surface: Surface,
         centroid: Vec2,

@@ -4,16 +4,17 @@ use carom_geometry::Aabb;
 use carom_math::Vec2;
 
 use crate::store::swept::{Cells, Sides};
+use crate::{BodyIx, Ix};
 
 /// A body and the box that it sweeps over: 20 bytes, read one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SweptBox {
-    pub(crate) body: u32,
+    pub(crate) body: BodyIx,
     sides: Sides,
 }
 
 impl SweptBox {
-    pub(crate) const fn new(body: u32, sides: Sides) -> Self {
+    pub(crate) const fn new(body: BodyIx, sides: Sides) -> Self {
         Self { body, sides }
     }
 
@@ -82,7 +83,7 @@ impl Grid {
         }
     }
 
-    pub(crate) fn remove(&mut self, body: u32, cells: Cells) {
+    pub(crate) fn remove(&mut self, body: BodyIx, cells: Cells) {
         for cell in cells.each() {
             let list = self.list(cell);
             Self::drop_from(&mut self.lists[list], body);
@@ -111,7 +112,7 @@ impl Grid {
         }
     }
 
-    fn drop_from(list: &mut Vec<SweptBox>, body: u32) {
+    fn drop_from(list: &mut Vec<SweptBox>, body: BodyIx) {
         if let Some(at) = list.iter().position(|swept_box| swept_box.body == body) {
             list.swap_remove(at);
         }
@@ -119,14 +120,19 @@ impl Grid {
 
     /// Appends every body in the cells with a box that overlaps `swept_box`, itself included; some more than once.
     /// Returns how many boxes were compared.
-    pub(crate) fn gather(&self, swept_box: &SweptBox, cells: Cells, near: &mut Vec<u32>) -> usize {
+    pub(crate) fn gather(
+        &self,
+        swept_box: &SweptBox,
+        cells: Cells,
+        near: &mut Vec<BodyIx>,
+    ) -> usize {
         let (limits, mut count) = (swept_box.limits(), 0);
         for cell in cells.each() {
             let list = &self.lists[self.list(cell)];
             count += list.len();
             // Every body is written, and kept by advancing `end`: a branch on the overlap would be mispredicted.
             let mut end = near.len();
-            near.resize(end + list.len(), 0);
+            near.resize(end + list.len(), BodyIx::NONE);
             for other in list {
                 near[end] = other.body;
                 end += usize::from(other.is_within(limits));
@@ -181,23 +187,23 @@ mod tests {
                 .into_iter()
                 .map(|b| Aabb::new(b.min + way, b.max + way))
                 .collect();
-            for (i, bounds) in (0..).zip(&before) {
+            for (i, bounds) in (0..).map(BodyIx::new).zip(&before) {
                 grid.insert(SweptBox::new(i, Sides::around(*bounds)), grid.cells(*bounds));
             }
-            for (i, (from, to)) in (0..).zip(before.iter().zip(&boxes)) {
+            for (i, (from, to)) in (0..).map(BodyIx::new).zip(before.iter().zip(&boxes)) {
                 grid.shift(SweptBox::new(i, Sides::around(*to)), grid.cells(*from), grid.cells(*to));
             }
-            for (i, bounds) in (0_u32..).zip(&boxes) {
+            for (i, bounds) in (0..).map(BodyIx::new).zip(&boxes) {
                 let mut near = Vec::new();
                 let swept_box = SweptBox::new(i, Sides::around(*bounds));
                 grid.gather(&swept_box, grid.cells(*bounds), &mut near);
-                for (j, other) in (0_u32..).zip(&boxes) {
-                    prop_assert!(near.contains(&j) || !bounds.overlaps(*other), "{} misses {}", i, j);
+                for (j, other) in (0..).map(BodyIx::new).zip(&boxes) {
+                    prop_assert!(near.contains(&j) || !bounds.overlaps(*other), "{:?} misses {:?}", i, j);
                     let apart = !bounds.grown(1e-3).overlaps(other.grown(1e-3));
-                    prop_assert!(!(near.contains(&j) && apart), "{} meets {}", i, j);
+                    prop_assert!(!(near.contains(&j) && apart), "{:?} meets {:?}", i, j);
                 }
             }
-            for (i, bounds) in (0..).zip(&boxes) {
+            for (i, bounds) in (0..).map(BodyIx::new).zip(&boxes) {
                 grid.remove(i, grid.cells(*bounds));
             }
             prop_assert!(grid.lists.iter().all(Vec::is_empty));

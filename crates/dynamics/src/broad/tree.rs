@@ -9,7 +9,7 @@ use carom_math::{SimTime, Vec2};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::Collider;
-use crate::{BodyId, BodyKind, ColliderIx, Ix, PairIx, PairMaterial, PairSearch, Two};
+use crate::{BodyId, BodyIx, BodyKind, ColliderIx, Ix, PairIx, PairMaterial, PairSearch, Two};
 
 /// Boxes are stretched along the motion over this many sub-steps, so that a body that keeps its
 /// course is looked for again only now and then. Wider boxes find more pairs in vain.
@@ -19,7 +19,7 @@ pub(crate) const LOOK_AHEAD: f64 = 8.0;
 pub(crate) const PADDING: f64 = 0.05;
 
 /// Finds the free bodies with boxes that overlap one, and writes them into a list.
-pub(crate) type Overlapping<'a> = dyn Fn(&Bodies, Aabb, &mut Vec<u32>) + 'a;
+pub(crate) type Overlapping<'a> = dyn Fn(&Bodies, Aabb, &mut Vec<BodyIx>) + 'a;
 
 /// Everything a search for pairs reads and writes.
 #[derive(Clone, Debug, Default)]
@@ -33,7 +33,7 @@ pub(crate) struct Broad {
     pub(crate) excluded: BTreeSet<(BodyId, BodyId)>,
     /// What the last search found, shapes and free bodies: kept for its memory.
     near: Vec<ColliderIx>,
-    free: Vec<u32>,
+    free: Vec<BodyIx>,
     /// What was a pair with a shape before a search, in order: kept for its memory.
     known: Vec<ColliderIx>,
 }
@@ -52,7 +52,7 @@ impl Broad {
         &mut self,
         bodies: &mut Bodies,
         pairs: &mut Pairs,
-        index: u32,
+        index: BodyIx,
         time: SimTime,
         h: f64,
         free: Option<&Overlapping<'_>>,
@@ -79,7 +79,7 @@ impl Broad {
     }
 
     /// Takes the boxes of a body out of the trees.
-    pub(crate) fn forget(&mut self, bodies: &mut Bodies, index: u32) {
+    pub(crate) fn forget(&mut self, bodies: &mut Bodies, index: BodyIx) {
         for &at in &bodies.get(index).colliders.clone() {
             if let Some(node) = bodies.colliders[at].node.take() {
                 self.tree.remove(node);
@@ -102,7 +102,13 @@ impl Broad {
     }
 
     /// Boxes of a free body that is too large for the grid, over its motion up to its horizon.
-    pub(crate) fn follow(&mut self, bodies: &mut Bodies, index: u32, time: SimTime, seconds: f64) {
+    pub(crate) fn follow(
+        &mut self,
+        bodies: &mut Bodies,
+        index: BodyIx,
+        time: SimTime,
+        seconds: f64,
+    ) {
         let motion = bodies.get(index).motion;
         for &at in &bodies.get(index).colliders.clone() {
             let fat = swept_box(&bodies.colliders[at], &motion, time, seconds);
@@ -165,7 +171,7 @@ impl Broad {
                 self.query(bounds, |other| near.push(other));
                 if let Some(free) = free {
                     free(bodies, bounds, &mut self.free);
-                    let shapes = |body: &u32| &bodies.get(*body).colliders;
+                    let shapes = |body: &BodyIx| &bodies.get(*body).colliders;
                     near.extend(self.free.iter().flat_map(shapes));
                 }
             }
@@ -314,7 +320,7 @@ mod tests {
             ConvexPolygon::rectangle(4.0, 0.5).expect("a plank"),
         ));
         let collider = Collider {
-            body: 0,
+            body: BodyIx::NONE,
             drawn: Arc::clone(&plank),
             solid: Arc::clone(&plank),
             surface: Arc::new(Surface {

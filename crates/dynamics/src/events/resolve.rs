@@ -8,7 +8,7 @@ use crate::model::narrow::{NOISE, opening_speed, pace, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
 use crate::values::event::EventKind;
-use crate::{Events, PairIx, PairMaterial, Settings, StepReport};
+use crate::{BodyIx, Events, PairIx, PairMaterial, Settings, StepReport, Two};
 
 /// What the impacts of one pair may spend in a sub-step before the engine takes its bodies: what rattles with e = 0 faster than a
 /// thirtieth of a sub-step is closer to rest than to flight.
@@ -42,7 +42,7 @@ pub(crate) enum Struck {
     Rests,
     /// These bodies have new motions.
     Impact {
-        changed: Vec<u32>,
+        changed: Vec<BodyIx>,
         /// Floating-point operations that it took.
         operations: u64,
     },
@@ -158,7 +158,7 @@ fn spend(
 /// Says that infinitely many impacts of two bodies have ended, with their energy per kg of reduced mass, in J/kg.
 pub(crate) fn tell_collapse(
     bodies: &Bodies,
-    (a, b): (u32, u32),
+    (a, b): Two<BodyIx>,
     energy: f64,
     time: SimTime,
     events: &mut Events,
@@ -181,7 +181,7 @@ pub(crate) fn apply(
     shock: &Shock,
     events: &mut Events,
     report: &mut StepReport,
-) -> Vec<u32> {
+) -> Vec<BodyIx> {
     for impact in shock.impacts() {
         report.impacts += 1;
         let (a, b) = shock.ends(&impact);

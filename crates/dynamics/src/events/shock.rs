@@ -20,7 +20,7 @@ use crate::model::ghost::look_at;
 use crate::model::narrow::{TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
-use crate::{PairIx, PairMaterial, Settings};
+use crate::{BodyIx, PairIx, PairMaterial, Settings, Two};
 
 /// Sweeps before the rest is left to the next look: what still closes then is struck again.
 const SWEEPS: usize = 300;
@@ -79,7 +79,7 @@ impl Strike {
 /// A body in a shock.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shaken {
-    pub(crate) index: u32,
+    pub(crate) index: BodyIx,
     before: ImpactBody,
     pub(crate) after: ImpactBody,
 }
@@ -148,7 +148,7 @@ impl Shock {
         &mut self,
         bodies: &Bodies,
         pair: PairIx,
-        (i, j): (u32, u32),
+        (i, j): Two<BodyIx>,
         (point, normal): (Vec2, Vec2),
         material: PairMaterial,
         rest: f64,
@@ -394,7 +394,7 @@ impl Shock {
     }
 
     /// Bodies of a strike.
-    pub(crate) fn ends(&self, strike: &Strike) -> (u32, u32) {
+    pub(crate) fn ends(&self, strike: &Strike) -> Two<BodyIx> {
         (
             self.bodies[strike.ends.0].index,
             self.bodies[strike.ends.1].index,
@@ -402,7 +402,7 @@ impl Shock {
     }
 
     /// Place of a body; of one that nothing moves with its surface's speed `run`, a new one.
-    fn place(&mut self, bodies: &Bodies, index: u32, run: Vec2) -> usize {
+    fn place(&mut self, bodies: &Bodies, index: BodyIx, run: Vec2) -> usize {
         let state = bodies.get(index);
         let runs = run != Vec2::ZERO && state.inverse_mass == 0.0;
         let known = self.bodies.iter().position(|shaken| shaken.index == index);

@@ -17,7 +17,7 @@ use crate::store::bodies::Bodies;
 use crate::store::moved::moves;
 use crate::store::pairs::{Pair, Pairs};
 use crate::store::state::BodyState;
-use crate::{ColliderIx, PairIx, Two};
+use crate::{BodyIx, ColliderIx, PairIx, Two};
 
 /// Sine of the angle up to which two normals are one.
 const ALONG: f64 = 1e-6;
@@ -26,7 +26,7 @@ const ALONG: f64 = 1e-6;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Meeting {
     /// The body, and the collider and the part that it meets the piece with.
-    body: u32,
+    body: BodyIx,
     own: (ColliderIx, u32),
     /// Collider and part of the piece.
     piece: (ColliderIx, u32),
@@ -38,7 +38,7 @@ impl Meeting {
     /// A contact or an impact of two bodies, of which one stands; `normal`: from the first to the second.
     pub(crate) fn of(
         bodies: &Bodies,
-        ends: (u32, u32),
+        ends: Two<BodyIx>,
         colliders: Two<ColliderIx>,
         parts: (u32, u32),
         normal: Vec2,

@@ -2,7 +2,7 @@
 
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
-use crate::{ColliderIx, PairIx, Two};
+use crate::{BodyIx, ColliderIx, PairIx, Two};
 
 /// An island of more rows (points, and a friction for each touch) than this has no closed form: it is the engine's.
 pub(crate) const ROWS: usize = 64;
@@ -11,8 +11,8 @@ pub(crate) const ROWS: usize = 64;
 pub(crate) fn neighbours<'a>(
     bodies: &'a Bodies,
     pairs: &'a Pairs,
-    index: u32,
-) -> impl Iterator<Item = u32> + use<'a> {
+    index: BodyIx,
+) -> impl Iterator<Item = BodyIx> + use<'a> {
     bodies.get(index).pairs.iter().filter_map(move |&place| {
         let pair = pairs.get(place);
         pair.touching.then(|| pair.other(index))
@@ -23,7 +23,7 @@ pub(crate) fn neighbours<'a>(
 pub(crate) fn pair_of(
     bodies: &Bodies,
     pairs: &Pairs,
-    index: u32,
+    index: BodyIx,
     (first, second): Two<ColliderIx>,
 ) -> Option<PairIx> {
     let mut places = bodies.get(index).pairs.iter().copied();

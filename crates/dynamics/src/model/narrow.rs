@@ -7,6 +7,7 @@ use carom_math::{Pose, SimTime, Vec2};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, PairContact, PairPoint};
 use crate::store::state::BodyState;
+use crate::{BodyIx, Two};
 
 /// Contacts are looked for this far beyond a sub-step's travel, as a fraction of the smaller reach.
 const MARGIN: f64 = 1.0 / 1024.0;
@@ -146,7 +147,7 @@ pub(crate) fn rest_speed(bodies: &Bodies, pair: &Pair) -> f64 {
 }
 
 /// [`rest_speed`] of two bodies that turn about nothing.
-pub(crate) fn rest_speed_between(bodies: &Bodies, (a, b): (u32, u32)) -> f64 {
+pub(crate) fn rest_speed_between(bodies: &Bodies, (a, b): Two<BodyIx>) -> f64 {
     let (a, b) = (bodies.get(a), bodies.get(b));
     let pull = |body: &BodyState| {
         if body.is_dynamic() {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use carom_math::{SimTime, Vec2};
 
+use crate::BodyIx;
 use crate::law::damped::decays;
 use crate::law::flight::{Flight, Turn};
 use crate::law::integrate::Stretch;
@@ -29,7 +30,7 @@ const APART: f64 = 1.0 / 32.0;
     clippy::float_cmp,
     reason = "a body that is on its parabola has these very numbers"
 )]
-pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime) {
+pub(crate) fn fly(bodies: &mut Bodies, index: BodyIx, time: SimTime) {
     let state = bodies.get(index);
     if !state.is_dynamic() || !bodies.bends(index) {
         let motion = &state.motion;
@@ -51,7 +52,7 @@ pub(crate) fn fly(bodies: &mut Bodies, index: u32, time: SimTime) {
 /// long as that stays near. When it ends.
 ///
 /// A sub-step is what counts as short: where a field has an edge, or a centre is near.
-pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime) -> SimTime {
+pub(crate) fn begin_piece(bodies: &mut Bodies, index: BodyIx, time: SimTime) -> SimTime {
     let h = bodies.h;
     let known = bodies.get(index).flight.clone();
     let flight = match known {
@@ -72,7 +73,7 @@ pub(crate) fn begin_piece(bodies: &mut Bodies, index: u32, time: SimTime) -> Sim
 /// Gives a member of a group that turns the next piece of its path. When it ends: never, if the group changes before.
 pub(crate) fn begin_held_piece(
     bodies: &mut Bodies,
-    index: u32,
+    index: BodyIx,
     flight: Arc<Flight>,
     time: SimTime,
 ) -> SimTime {
@@ -90,7 +91,7 @@ pub(crate) fn begin_held_piece(
 }
 
 /// The parabola that touches a flight at `time`, for as long as it stays near: when that ends.
-fn lay_piece(bodies: &mut Bodies, index: u32, flight: &Flight, time: SimTime) -> SimTime {
+fn lay_piece(bodies: &mut Bodies, index: BodyIx, flight: &Flight, time: SimTime) -> SimTime {
     let shortest = SHORTEST * bodies.h;
     let reach = bodies.get(index).reach;
     let touching = flight.osculating(time, reach);
@@ -109,7 +110,7 @@ fn lay_piece(bodies: &mut Bodies, index: u32, flight: &Flight, time: SimTime) ->
 const SHORTEST: f64 = 1.0 / 1_048_576.0;
 
 /// The law that a body flies by from `time` on.
-fn law_of(bodies: &Bodies, index: u32, time: SimTime) -> Flight {
+fn law_of(bodies: &Bodies, index: BodyIx, time: SimTime) -> Flight {
     let (state, pull, h) = (bodies.get(index), &bodies.pull, bodies.h);
     let (x, v) = (state.centre_at(time), state.velocity_at(time));
     let (linear, angular) = state.damping();
@@ -143,7 +144,7 @@ fn law_of(bodies: &Bodies, index: u32, time: SimTime) -> Flight {
 }
 
 /// How far a stretch of the integrator may go, by what the fields say of themselves, in s.
-fn longest(bodies: &Bodies, index: u32, (x, v): (Vec2, Vec2)) -> f64 {
+fn longest(bodies: &Bodies, index: BodyIx, (x, v): (Vec2, Vec2)) -> f64 {
     let (state, pull, h) = (bodies.get(index), &bodies.pull, bodies.h);
     let scale = state.gravity_scale().abs();
     let push = state.gravity_scale() * pull.at(x) + state.force() * state.inverse_mass;

@@ -10,9 +10,8 @@ use carom_stepped::{BodyId, BodyInput, PieceInput, State};
 use super::{Stepping, accepted, place};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
-use crate::store::slots::grown;
 use crate::store::state::BodyState;
-use crate::{BodyKind, Ix, Mode};
+use crate::{BodyIx, BodyKind, Ix, Mode};
 
 /// A place that differs by less, as a part of the reach, is the same but for rounding: what was only looked at stays.
 const SAME: f64 = 1e-12;
@@ -41,7 +40,7 @@ impl Stepping {
         bodies.touched = touched;
     }
 
-    pub(super) fn enter(&mut self, bodies: &Bodies, index: u32, time: SimTime) {
+    pub(super) fn enter(&mut self, bodies: &Bodies, index: BodyIx, time: SimTime) {
         let state = bodies.get(index);
         // A body that joined within a sub-step waited there.
         let at = if state.in_engine() {
@@ -70,7 +69,7 @@ impl Stepping {
             .filter(|solid| part_count(solid) > 1)
             .map(|solid| solid.aabb(Pose::IDENTITY).extents().length());
         self.widest = widths.fold(self.widest, f64::max);
-        *grown(&mut self.ids, index, None) = Some(id);
+        *self.ids.grown(index, None) = Some(id);
         self.set_pull(bodies, (index, id), state.centre_at(time));
         if bodies.get(index).is_asleep() {
             accepted(self.engine.sleep(id));
@@ -78,7 +77,7 @@ impl Stepping {
     }
 
     /// Takes over velocity, place and pull.
-    fn tell(&mut self, bodies: &Bodies, index: u32, id: BodyId, time: SimTime) {
+    fn tell(&mut self, bodies: &Bodies, index: BodyIx, id: BodyId, time: SimTime) {
         let state = bodies.get(index);
         let Ok(known) = self.engine.state(id) else {
             return;
@@ -117,7 +116,7 @@ impl Stepping {
     }
 
     /// What pulls a body at a place, from now on.
-    fn set_pull(&mut self, bodies: &Bodies, (index, id): (u32, BodyId), at: Vec2) {
+    fn set_pull(&mut self, bodies: &Bodies, (index, id): (BodyIx, BodyId), at: Vec2) {
         let (pull, twist) = bodies.pull_on(index, at);
         accepted(self.engine.set_pull(id, pull, twist));
     }
@@ -126,7 +125,7 @@ impl Stepping {
     pub(crate) fn book_pulls(
         &mut self,
         bodies: &mut Bodies,
-        forced: &BTreeSet<u32>,
+        forced: &BTreeSet<BodyIx>,
         clock: &Clock,
         first: bool,
     ) {
@@ -141,7 +140,7 @@ impl Stepping {
     }
 
     /// What pulls a body where it is.
-    pub(crate) fn pull_one(&mut self, bodies: &Bodies, index: u32) {
+    pub(crate) fn pull_one(&mut self, bodies: &Bodies, index: BodyIx) {
         if let Some(state) = self.state(index) {
             self.set_pull(bodies, (index, state.id), state.pose.position);
         }
@@ -187,7 +186,7 @@ fn input_of(state: &BodyState, time: SimTime) -> BodyInput {
     input.damping = [linear, angular];
     input.gravity_scale = state.gravity_scale();
     input.sleep_allowed = state.sleep_allowed();
-    input.tag = u64::from(state.id.index);
+    input.tag = u64::from(state.id.index.number());
     // Bodies join, and guests are invited, when they are near.
     input.order = Some(input.tag);
     input

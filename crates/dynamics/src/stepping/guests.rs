@@ -12,8 +12,7 @@ use super::Stepping;
 use super::rules::Rules;
 use crate::broad::tree::Broad;
 use crate::store::bodies::Bodies;
-use crate::store::slots::grown;
-use crate::{BodyKind, Mode};
+use crate::{BodyIx, BodyKind, Mode};
 
 /// Members are searched around this far beyond their boxes, as a part of these: what moves on is not searched around each tick. 0.5:
 /// a drum takes 0.8 % longer.
@@ -24,7 +23,7 @@ impl Stepping {
     fn uncovered(&self, of: impl FnOnce(&Engine, &mut dyn FnMut(u64, Aabb))) -> Vec<(u64, Aabb)> {
         let mut boxes = Vec::new();
         of(&self.engine, &mut |tag, bounds| {
-            let covered = self.covered.get(super::body(tag) as usize);
+            let covered = self.covered.get(super::body(tag));
             if covered.is_none_or(|covered| !covered.contains(bounds)) {
                 boxes.push((tag, bounds));
             }
@@ -73,7 +72,7 @@ impl Stepping {
         // Bodies of these kinds at rest in a box become guests.
         let mut note = |bounds: Aabb,
                         is_asked: fn(BodyKind) -> bool,
-                        guests: &mut Vec<u32>,
+                        guests: &mut Vec<BodyIx>,
                         bodies: &mut Bodies| {
             broad.search_tree(bodies, bounds, &mut near);
             for at in &near {
@@ -89,7 +88,7 @@ impl Stepping {
         for (tag, bounds) in boxes {
             let size = bounds.extents();
             let around = bounds.grown(AROUND * size.x.max(size.y));
-            *grown(&mut self.covered, super::body(tag), Aabb::EMPTY) = around;
+            *self.covered.grown(super::body(tag), Aabb::EMPTY) = around;
             note(around, |_| true, &mut guests, bodies);
         }
         // The engine wakes sleepers that a fixed body is put into: one that always was there comes first.

@@ -20,7 +20,7 @@ use crate::store::bodies::Bodies;
 use crate::store::pairs::Shapes;
 use crate::store::state::BodyState;
 use crate::store::uncommon::Lag;
-use crate::{EnergyLedger, Mode, World};
+use crate::{BodyIx, EnergyLedger, Mode, World};
 
 /// More bodies than this that wake, or land, at once join the engine.
 pub(crate) const FEW: usize = 16;
@@ -37,21 +37,21 @@ pub(crate) struct Joins {
     /// The engine had a member: bodies that come to rest are guests from now on.
     pub(crate) has_guests: bool,
     /// Kinematic bodies, and some that were.
-    pub(crate) drivers: BTreeSet<u32>,
+    pub(crate) drivers: BTreeSet<BodyIx>,
     /// Bodies that woke in the engine.
-    pub(crate) woken: Vec<u32>,
+    pub(crate) woken: Vec<BodyIx>,
     /// Bodies that joined in the midst of a sub-step, and stand where they are until it ends.
-    pub(crate) waiting: Vec<u32>,
+    pub(crate) waiting: Vec<BodyIx>,
     /// How many of them are known to those that would meet them.
     pub(crate) known: usize,
     /// Shapes that touched when one of their bodies joined: the caller was told.
     pub(crate) told: Vec<Shapes>,
     /// Members that had no contact at the last ticks, and at how many.
-    idle: BTreeMap<u32, u8>,
+    idle: BTreeMap<BodyIx, u8>,
     /// Bodies that took to flight, and some that landed since.
-    pub(crate) aloft: BTreeSet<u32>,
+    pub(crate) aloft: BTreeSet<BodyIx>,
     /// Bodies outside with motions that are newer than the last search for bodies that join.
-    pub(crate) restless: Vec<u32>,
+    pub(crate) restless: Vec<BodyIx>,
     /// Where bodies outside go until the tick of this number ends: what comes to the engine in it, or goes elsewhere, asks for them
     /// there. Of those with newer motions there are boxes of the older ones, too. None if some took to flight that are not in it.
     pub(super) ahead: Option<(u64, BoxTree)>,
@@ -60,7 +60,7 @@ pub(crate) struct Joins {
     /// Where the engine's last sub-step ended.
     pub(crate) reached: SimTime,
     /// Bodies of the engine that a caller's forces act on, or did in its last sub-step.
-    pub(crate) pushed: BTreeSet<u32>,
+    pub(crate) pushed: BTreeSet<BodyIx>,
     /// Until when forces of the present step are known.
     pub(crate) forced_until: SimTime,
     pub(crate) rush: Rush,
@@ -73,7 +73,7 @@ pub(crate) struct Joins {
 
 impl Joins {
     /// Notes that a body flies.
-    pub(crate) fn note_flight(&mut self, bodies: &Bodies, index: u32) {
+    pub(crate) fn note_flight(&mut self, bodies: &Bodies, index: BodyIx) {
         if bodies.member_count() > 0 {
             self.restless.push(index);
         } else {
@@ -91,7 +91,7 @@ impl World {
 
     /// Bodies in touch of which one has no solution of its contact modes join.
     pub(crate) fn join_unsolved(&mut self, time: SimTime) {
-        let joining: BTreeSet<u32> = self.unsolved_islands().into_iter().flatten().collect();
+        let joining: BTreeSet<BodyIx> = self.unsolved_islands().into_iter().flatten().collect();
         self.unsettled.retain(|index| !joining.contains(index));
         for index in joining {
             self.join(index, time);
@@ -99,7 +99,7 @@ impl World {
     }
 
     /// Islands of bodies in touch in sub-steps of which one has no closed form.
-    pub(crate) fn unsolved_islands(&self) -> Vec<Vec<u32>> {
+    pub(crate) fn unsolved_islands(&self) -> Vec<Vec<BodyIx>> {
         let (mut seen, mut islands) = (BTreeSet::new(), Vec::new());
         for &index in &self.unsettled {
             if !self.bodies.get(index).is_unsolved() || !seen.insert(index) {
@@ -118,7 +118,7 @@ impl World {
     }
 
     /// Bodies that woke together join if they are many, before closed forms are tried; whether they did.
-    pub(crate) fn many_woke(&mut self, woken: &[u32], time: SimTime) -> bool {
+    pub(crate) fn many_woke(&mut self, woken: &[BodyIx], time: SimTime) -> bool {
         let exact = self.settings.mode == Mode::Exact;
         if woken.len() <= if exact { MANY } else { FEW } {
             return false;
@@ -130,7 +130,7 @@ impl World {
     }
 
     /// From now on the engine moves this body. In the middle of a sub-step it stands where it is until the next.
-    pub(crate) fn join(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn join(&mut self, index: BodyIx, time: SimTime) {
         let state = self.bodies.get(index);
         if !state.is_dynamic() || state.is_asleep() || state.in_engine() {
             return;
@@ -165,7 +165,7 @@ impl World {
 
     /// A body that joins once the engine has made a sub-step, or in the midst of one, stands where it is until that ends: so the engine
     /// takes it, and so it is shown, with the velocity that it keeps.
-    pub(crate) fn wait(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn wait(&mut self, index: BodyIx, time: SimTime) {
         let begins = time <= self.clock.last() && self.joins.reached < self.clock.next();
         if begins || !self.clock.is_within(time) {
             return;
@@ -200,7 +200,7 @@ impl World {
     }
 
     /// Takes a body's boxes and pairs from the world: the engine has its own. What touches goes on to touch.
-    pub(crate) fn leave_pairs(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn leave_pairs(&mut self, index: BodyIx, time: SimTime) {
         for place in self.bodies.get(index).pairs.clone() {
             let Some(pair) = self.take_pair(place, time) else {
                 continue;
@@ -214,7 +214,7 @@ impl World {
     }
 
     /// A member leaves, with the motion that it has at `time`: its next regime is for the caller to choose.
-    pub(crate) fn leave(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn leave(&mut self, index: BodyIx, time: SimTime) {
         if self.leave_engine(index, time) {
             self.tell_members_touches(time);
         }
@@ -224,7 +224,7 @@ impl World {
     }
 
     /// A body that joined within a sub-step and leaves in it touches nothing any more: the engine, which would say so, never knew it.
-    fn end_told(&mut self, index: u32, time: SimTime) {
+    fn end_told(&mut self, index: BodyIx, time: SimTime) {
         let events = &mut self.events;
         self.joins.told.retain(|shapes| {
             let stays = shapes.iter().all(|shape| shape.0 != index);
@@ -236,7 +236,7 @@ impl World {
     }
 
     /// A body that the engine does not know any more is no member.
-    fn end_membership(&mut self, index: u32, time: SimTime) {
+    fn end_membership(&mut self, index: BodyIx, time: SimTime) {
         if !self.bodies.get(index).in_engine() {
             return;
         }
@@ -251,7 +251,7 @@ impl World {
     }
 
     /// The engine will not move a body any more, which flies from `time` on: forces go on as those of a free body.
-    fn release_force(&mut self, index: u32, time: SimTime) {
+    fn release_force(&mut self, index: BodyIx, time: SimTime) {
         if !self.joins.pushed.remove(&index) {
             return;
         }
@@ -274,7 +274,7 @@ impl World {
     }
 
     /// The engine moves a body from `time` on that was free: a force goes on as in its sub-steps.
-    fn take_force(&mut self, index: u32, time: SimTime) {
+    fn take_force(&mut self, index: BodyIx, time: SimTime) {
         let state = self.bodies.get_mut(index);
         if state.force() == Vec2::ZERO && state.torque() == 0.0 {
             return;

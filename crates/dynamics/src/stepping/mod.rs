@@ -32,8 +32,9 @@ use carom_math::Pose;
 use carom_stepped::{Engine, EngineError, Impact, Softness, State, Touch};
 
 use crate::store::pairs::Shapes;
+use crate::store::slots::List;
 use crate::values::error::SettingsError;
-use crate::{ColliderIx, Ix, Mode, Settings};
+use crate::{BodyIx, ColliderIx, Ix, Mode, Settings};
 
 pub(crate) use join::{Joins, MANY};
 pub(crate) use within::is_blow;
@@ -43,9 +44,9 @@ pub(crate) use within::is_blow;
 pub(crate) struct Stepping {
     pub(crate) engine: Engine,
     /// The engine's name of each body, by place in the world.
-    ids: Vec<Option<carom_stepped::BodyId>>,
+    ids: List<BodyIx, Option<carom_stepped::BodyId>>,
     /// Where each member was searched around: all that rests there is a guest. By place in the world.
-    covered: Vec<Aabb>,
+    covered: List<BodyIx, Aabb>,
     /// Greatest width of a shape of several convex pieces that the engine was given, in m: its box may be where no piece is.
     pub(crate) widest: f64,
     /// Shapes of several convex pieces that touch, the one of the earlier body first: how many pairs of theirs.
@@ -56,7 +57,7 @@ pub(crate) struct Stepping {
     changes: Vec<Touch>,
     impacts: Vec<Impact>,
     /// Where bodies were before the last sub-step, where that is asked for: body, pose and turn.
-    places: Vec<(u32, Pose, f64)>,
+    places: Vec<(BodyIx, Pose, f64)>,
     /// Poses may be read within the sub-step.
     asked: bool,
 }
@@ -81,8 +82,8 @@ impl Stepping {
         engine.note_impacts(settings.events > 0);
         Ok(Box::new(Self {
             engine,
-            ids: Vec::new(),
-            covered: Vec::new(),
+            ids: List::default(),
+            covered: List::default(),
             widest: 0.0,
             touching: BTreeMap::new(),
             slept: Vec::new(),
@@ -107,20 +108,20 @@ impl Stepping {
     }
 
     /// Takes a body out of the engine.
-    pub(crate) fn remove(&mut self, index: u32) {
+    pub(crate) fn remove(&mut self, index: BodyIx) {
         if let Some(id) = self.id(index) {
             accepted(self.engine.remove(id));
-            self.ids[index as usize] = None;
+            self.ids[index] = None;
         }
     }
 
     /// The engine's name of a body.
-    pub(crate) fn id(&self, index: u32) -> Option<carom_stepped::BodyId> {
-        self.ids.get(index as usize).copied().flatten()
+    pub(crate) fn id(&self, index: BodyIx) -> Option<carom_stepped::BodyId> {
+        self.ids.get(index).copied().flatten()
     }
 
     /// The engine's state of a body.
-    pub(crate) fn state(&self, index: u32) -> Option<State> {
+    pub(crate) fn state(&self, index: BodyIx) -> Option<State> {
         self.engine.state(self.id(index)?).ok()
     }
 }
@@ -150,14 +151,14 @@ fn sleep_of(settings: &Settings) -> Option<carom_stepped::Sleep> {
 }
 
 /// The world's place of a body of the engine.
-pub(crate) const fn place(state: &State) -> u32 {
+pub(crate) fn place(state: &State) -> BodyIx {
     body(state.tag)
 }
 
 /// The world's body with a tag.
 #[expect(clippy::cast_possible_truncation, reason = "tags are places")]
-const fn body(tag: u64) -> u32 {
-    tag as u32
+fn body(tag: u64) -> BodyIx {
+    BodyIx::new(tag as u32)
 }
 
 /// The world's shape that a piece of the engine is, or is a part of.

@@ -8,8 +8,8 @@ use carom_math::SimTime;
 
 use super::rules::Rules;
 use super::{Joins, Stepping};
-use crate::ColliderIx;
 use crate::broad::window::box_ahead;
+use crate::{BodyIx, ColliderIx, Ix};
 
 impl Joins {
     /// Bodies outside that may meet members before the next tick, in order: of what flies as it did when this was last called only
@@ -19,12 +19,12 @@ impl Joins {
         &mut self,
         stepping: &mut Stepping,
         rules: Rules<'_>,
-        held: &BTreeSet<u32>,
+        held: &BTreeSet<BodyIx>,
         (time, tick): (SimTime, u64),
         asks_all: bool,
-    ) -> BTreeSet<u32> {
+    ) -> BTreeSet<BodyIx> {
         let bodies = rules.bodies;
-        let is_aloft = |index: &u32| bodies.is_alive(*index) && bodies.get(*index).is_free();
+        let is_aloft = |index: &BodyIx| bodies.is_alive(*index) && bodies.get(*index).is_free();
         let mut restless = core::mem::take(&mut self.restless);
         if !self.aloft.iter().any(is_aloft) {
             self.aloft.clear();
@@ -35,8 +35,8 @@ impl Joins {
         }
         stepping.engine.prepare_queries();
         let left = stepping.engine.left();
-        let box_of = |index: u32| box_ahead(bodies.get(index), time, left);
-        let with_box = |index: &u32| (box_of(*index), *index);
+        let box_of = |index: BodyIx| box_ahead(bodies.get(index), time, left);
+        let with_box = |index: &BodyIx| (box_of(*index), index.number());
         let known = self.ahead.take();
         let known = known.filter(|(of, _)| *of == tick && !asks_all);
         let (_, tree) = self.ahead.insert(known.unwrap_or_else(|| {
@@ -46,10 +46,11 @@ impl Joins {
             (tick, tree)
         }));
         let mut near = BTreeSet::new();
-        let mut asked: Vec<u32> = held.iter().copied().collect();
+        let mut asked: Vec<BodyIx> = held.iter().copied().collect();
         let meet = |tag: u64, bounds: Aabb| {
             let at = super::collider(tag);
             tree.query(bounds, |index| {
+                let index = BodyIx::new(index);
                 if is_aloft(&index)
                     && box_of(index).overlaps(bounds)
                     && stepping.nears(rules, self.reached, index, at, (time, left))
@@ -83,7 +84,7 @@ impl Stepping {
         &self,
         rules: Rules<'_>,
         reached: SimTime,
-        index: u32,
+        index: BodyIx,
         (time, left): (SimTime, f64),
     ) -> bool {
         let mut shapes = Vec::new();
@@ -100,7 +101,7 @@ impl Stepping {
         &self,
         rules: Rules<'_>,
         reached: SimTime,
-        index: u32,
+        index: BodyIx,
         at: ColliderIx,
         (time, left): (SimTime, f64),
     ) -> bool {

@@ -5,7 +5,7 @@ use carom_math::SimTime;
 use super::write::write_rest;
 use super::{Stepping, place};
 use crate::store::bodies::Bodies;
-use crate::{EventKind, Events, Mode};
+use crate::{BodyIx, EventKind, Events, Mode};
 
 impl Stepping {
     /// Notes bodies that fell asleep or woke, to tell of them.
@@ -84,9 +84,9 @@ impl Stepping {
 #[derive(Debug, Default)]
 pub(crate) struct Slept {
     /// Members that fell asleep: free bodies meet them as bodies at rest.
-    pub(crate) laid: Vec<u32>,
+    pub(crate) laid: Vec<BodyIx>,
     /// Members and guests that woke.
-    pub(crate) woken: Vec<u32>,
+    pub(crate) woken: Vec<BodyIx>,
     /// One of them is a member: no sub-steps were counted while all slept.
     pub(crate) wakes_member: bool,
 }

@@ -1,6 +1,7 @@
 //! Impacts within a tick: bodies that strike each other too often join the engine.
 
-use crate::store::slots::grown;
+use crate::store::slots::List;
+use crate::{BodyIx, Ix};
 
 /// So many bodies that strike each other stay with their exact impacts up to [`SERIES`].
 const HANDFUL: f64 = 6.0;
@@ -28,15 +29,15 @@ const AT_ONCE: f64 = 16.0;
 pub(crate) struct Rush {
     tick: u64,
     /// By body; those of [`Self::known`] only.
-    nodes: Vec<Node>,
-    known: Vec<u32>,
+    nodes: List<BodyIx, Node>,
+    known: Vec<BodyIx>,
     /// Roots of trees with too many impacts.
-    due: Vec<u32>,
+    due: Vec<BodyIx>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    parent: u32,
+    parent: BodyIx,
     /// Of a root: bodies of the tree, and what they lost.
     size: u32,
     spent: f64,
@@ -44,7 +45,7 @@ struct Node {
 
 /// No tree.
 const NONE: Node = Node {
-    parent: u32::MAX,
+    parent: BodyIx::NONE,
     size: 0,
     spent: 0.0,
 };
@@ -61,14 +62,14 @@ impl Rush {
         }
         self.tick = tick;
         for index in self.known.drain(..) {
-            self.nodes[index as usize] = NONE;
+            self.nodes[index] = NONE;
         }
         self.due.clear();
     }
 
-    fn root(&mut self, index: u32) -> u32 {
-        let node = grown(&mut self.nodes, index, NONE);
-        if node.parent == u32::MAX {
+    fn root(&mut self, index: BodyIx) -> BodyIx {
+        let node = self.nodes.grown(index, NONE);
+        if node.parent == BodyIx::NONE {
             self.known.push(index);
             *node = Node {
                 parent: index,
@@ -77,23 +78,23 @@ impl Rush {
             };
         }
         let mut at = index;
-        while self.nodes[at as usize].parent != at {
-            let up = self.nodes[self.nodes[at as usize].parent as usize].parent;
-            self.nodes[at as usize].parent = up;
+        while self.nodes[at].parent != at {
+            let up = self.nodes[self.nodes[at].parent].parent;
+            self.nodes[at].parent = up;
             at = up;
         }
         at
     }
 
-    fn join(&mut self, a: u32, b: u32) -> u32 {
+    fn join(&mut self, a: BodyIx, b: BodyIx) -> BodyIx {
         let (a, b) = (self.root(a), self.root(b));
         if a == b {
             return a;
         }
         let (low, high) = if a < b { (a, b) } else { (b, a) };
-        let lost = self.nodes[high as usize];
-        self.nodes[high as usize].parent = low;
-        let node = &mut self.nodes[low as usize];
+        let lost = self.nodes[high];
+        self.nodes[high].parent = low;
+        let node = &mut self.nodes[low];
         node.size += lost.size;
         node.spent += lost.spent;
         low
@@ -106,7 +107,7 @@ impl Rush {
 
     /// Counts an impact in a tick that changed the motions of `bodies`, at the price of `lost`: whether there are too many now among
     /// the bodies that struck each other.
-    pub(crate) fn count(&mut self, bodies: &[u32], lost: f64, tick: u64) -> Haste {
+    pub(crate) fn count(&mut self, bodies: &[BodyIx], lost: f64, tick: u64) -> Haste {
         let Some((&first, others)) = bodies.split_first() else {
             return Haste::None;
         };
@@ -115,7 +116,7 @@ impl Rush {
         for &other in others {
             root = self.join(root, other);
         }
-        let node = &mut self.nodes[root as usize];
+        let node = &mut self.nodes[root];
         node.spent += lost;
         let (size, spent) = (f64::from(node.size), node.spent);
         let losses = if size > MANY {
@@ -139,9 +140,9 @@ impl Rush {
     }
 
     /// Takes out the bodies that struck each other too often, in order.
-    pub(crate) fn take_due(&mut self) -> Vec<u32> {
+    pub(crate) fn take_due(&mut self) -> Vec<BodyIx> {
         let due = core::mem::take(&mut self.due);
-        let roots: Vec<u32> = due.into_iter().map(|index| self.root(index)).collect();
+        let roots: Vec<BodyIx> = due.into_iter().map(|index| self.root(index)).collect();
         let mut members = self.known.clone();
         members.retain(|index| roots.contains(&self.root(*index)));
         members.sort_unstable();

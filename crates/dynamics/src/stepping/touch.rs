@@ -7,7 +7,7 @@ use carom_math::SimTime;
 use super::{Stepping, collider};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Shapes;
-use crate::{ColliderIx, Contact, ContactPoint, EventKind, Events, StepReport};
+use crate::{BodyIx, ColliderIx, Contact, ContactPoint, EventKind, Events, StepReport};
 
 impl Stepping {
     /// Begins and ends of touch since this was last called, in order of shapes.
@@ -28,7 +28,7 @@ impl Stepping {
             changed.push((shapes_of(bodies, change.tags), gained, false));
         }
         // What joined within a sub-step waits to be entered: the engine cannot say yet whether it still touches.
-        let waits = |index: u32| self.id(index).is_none() && bodies.get(index).in_engine();
+        let waits = |index: BodyIx| self.id(index).is_none() && bodies.get(index).in_engine();
         let known = told.extract_if(.., |shapes| !shapes.iter().any(|shape| waits(shape.0)));
         changed.extend(known.map(|shapes| (shapes, 0, true)));
         changed.sort_unstable();
@@ -36,7 +36,8 @@ impl Stepping {
             let shapes = of_pair[0].0;
             let gained: i32 = of_pair.iter().map(|change| change.1).sum();
             let was_told = of_pair.iter().any(|change| change.2);
-            let several = |(_, at): (u32, ColliderIx)| part_count(&bodies.colliders[at].solid) > 1;
+            let several =
+                |(_, at): (BodyIx, ColliderIx)| part_count(&bodies.colliders[at].solid) > 1;
             // Pieces of a pair of single ones touch or do not: there is nothing to count.
             let (before, now) = if shapes.into_iter().any(several) {
                 let count = self.touching.entry(shapes).or_default();
@@ -94,7 +95,7 @@ impl Stepping {
     }
 
     /// All contacts that push, in order of shapes; those of one body if one is asked for.
-    pub(crate) fn contacts(&self, bodies: &Bodies, of: Option<u32>) -> Vec<Contact> {
+    pub(crate) fn contacts(&self, bodies: &Bodies, of: Option<BodyIx>) -> Vec<Contact> {
         let of_body = |index| self.engine.contacts_of(self.id(index)?).ok();
         let all: Vec<_> = match of {
             None => self.engine.contacts().collect(),

@@ -5,6 +5,7 @@ use carom_stepped::BodyId;
 
 use super::write::go_evenly;
 use super::{Stepping, accepted, place};
+use crate::BodyIx;
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 
@@ -15,7 +16,7 @@ pub(crate) fn is_blow(acceleration: Vec2, pull: Vec2) -> bool {
 
 impl Stepping {
     /// Bodies that a caller changed or removes within a sub-step go on as they do, and what contacts connect with them as it is seen.
-    pub(crate) fn leave_ways(&mut self, bodies: &mut Bodies, changed: &[u32], clock: &Clock) {
+    pub(crate) fn leave_ways(&mut self, bodies: &mut Bodies, changed: &[BodyIx], clock: &Clock) {
         let (now, left) = (clock.now, clock.next() - clock.now);
         if !clock.is_within(now) {
             return;
@@ -52,7 +53,7 @@ impl Stepping {
     }
 
     /// Bodies that are changed or fast go on from where they are now.
-    pub(crate) fn carry(&mut self, bodies: &Bodies, going: &[u32], now: SimTime) {
+    pub(crate) fn carry(&mut self, bodies: &Bodies, going: &[BodyIx], now: SimTime) {
         for &index in going {
             if let Some(id) = self.id(index).filter(|_| bodies.is_alive(index)) {
                 accepted(self.engine.carry(id, bodies.get(index).centre_pose(now)));

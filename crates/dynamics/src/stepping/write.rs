@@ -5,6 +5,7 @@ use carom_math::{Pose, SimTime, Vec2};
 use carom_stepped::State;
 
 use super::{Stepping, place};
+use crate::BodyIx;
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 use crate::store::uncommon::Lag;
@@ -148,7 +149,7 @@ impl Ending {
         }
     }
 
-    fn write(&self, bodies: &mut Bodies, index: u32) {
+    fn write(&self, bodies: &mut Bodies, index: BodyIx) {
         bodies.go_on_as(index, &self.motion, self.turned - self.turn);
         bodies.renew(index);
     }

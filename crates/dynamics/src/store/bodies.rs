@@ -16,7 +16,7 @@ use super::slots::List;
 use super::state::{BodyState, Collider};
 use super::uncommon::Lag;
 use crate::impact::ImpactBody;
-use crate::{BodyError, BodyId, ColliderIx, EnergyLedger, Two};
+use crate::{BodyError, BodyId, BodyIx, ColliderIx, EnergyLedger, Ix, Two};
 
 /// Running sums of the energy ledger's columns, with twice the digits.
 #[derive(Clone, Copy, Debug, Default)]
@@ -33,12 +33,12 @@ pub(crate) struct EnergyBook {
 /// All bodies of a world, with the places that removed ones left.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bodies {
-    list: Vec<BodyState>,
+    list: List<BodyIx, BodyState>,
     /// Raised by every change of a motion: what was predicted with another version is stale. Apart from the bodies, since
     /// a check of a prediction reads nothing else.
-    versions: Vec<u32>,
-    alive: Vec<bool>,
-    free: Vec<u32>,
+    versions: List<BodyIx, u32>,
+    alive: List<BodyIx, bool>,
+    free: Vec<BodyIx>,
     /// The shapes of all bodies, and places among them that are free.
     pub(crate) colliders: List<ColliderIx, Collider>,
     pub(crate) free_colliders: Vec<ColliderIx>,
@@ -51,7 +51,7 @@ pub(crate) struct Bodies {
     pub(crate) inaccurate: u64,
     /// Bodies that came, went, woke or were changed since the last sub-step; only where the list is
     /// read.
-    pub(crate) touched: Vec<u32>,
+    pub(crate) touched: Vec<BodyIx>,
     pub(crate) notes_touched: bool,
     pub(crate) moved: Moved,
     pub(crate) members: Members,
@@ -90,7 +90,7 @@ impl Bodies {
     pub(crate) fn next_id(&self) -> Result<BodyId, BodyError> {
         const LIMIT: usize = u32::MAX as usize;
         if let Some(&index) = self.free.last() {
-            let generation = self.list[index as usize].id.generation + 1;
+            let generation = self.list[index].id.generation + 1;
             return Ok(BodyId { index, generation });
         }
         let index = u32::try_from(self.list.len()).map_err(|_| BodyError::Full {
@@ -98,14 +98,14 @@ impl Bodies {
             limit: LIMIT,
         })?;
         Ok(BodyId {
-            index,
+            index: BodyIx::new(index),
             generation: 0,
         })
     }
 
     /// Notes that a body differs from its solver's copy.
-    pub(crate) fn touch(&mut self, index: u32) {
-        let state = self.list.get(index as usize);
+    pub(crate) fn touch(&mut self, index: BodyIx) {
+        let state = self.list.get(index);
         if self.notes_touched || state.is_some_and(|state| state.in_engine() || state.is_guest) {
             self.touched.push(index);
             // A caller may change a body any number of times between two sub-steps.
@@ -116,15 +116,15 @@ impl Bodies {
         }
     }
 
-    pub(crate) fn is_alive(&self, index: u32) -> bool {
-        self.alive[index as usize]
+    pub(crate) fn is_alive(&self, index: BodyIx) -> bool {
+        self.alive[index]
     }
 
     pub(crate) fn insert(&mut self, state: BodyState) {
         self.touch(state.id.index);
         self.moved.note(state.id.index);
-        let index = state.id.index as usize;
-        if index == self.list.len() {
+        let index = state.id.index;
+        if index.at() == self.list.len() {
             self.list.push(state);
             self.versions.push(0);
             self.alive.push(true);
@@ -139,22 +139,22 @@ impl Bodies {
     }
 
     /// Takes a body out; its place is used again unless its generations are used up.
-    pub(crate) fn remove(&mut self, index: u32) {
+    pub(crate) fn remove(&mut self, index: BodyIx) {
         // Nothing that was foreseen comes true.
         self.renew(index);
-        let state = &mut self.list[index as usize];
+        let state = &mut self.list[index];
         state.vanish();
         state.colliders = Few::default();
         state.pairs.clear();
-        self.alive[index as usize] = false;
+        self.alive[index] = false;
         if state.id.generation < u32::MAX {
             self.free.push(index);
         }
     }
 
-    pub(crate) fn find(&self, id: BodyId) -> Result<u32, BodyError> {
-        let index = id.index as usize;
-        if index < self.list.len() && self.alive[index] && self.list[index].id == id {
+    pub(crate) fn find(&self, id: BodyId) -> Result<BodyIx, BodyError> {
+        let known = self.list.get(id.index);
+        if known.is_some_and(|state| state.id == id) && self.alive[id.index] {
             Ok(id.index)
         } else {
             Err(BodyError::Stale(id))
@@ -162,17 +162,15 @@ impl Bodies {
     }
 
     /// Places of all living bodies, in order.
-    pub(crate) fn indices(&self) -> impl Iterator<Item = u32> + use<'_> {
-        (0u32..)
-            .zip(&self.alive)
-            .filter(|(_, alive)| **alive)
-            .map(|(i, _)| i)
+    pub(crate) fn indices(&self) -> impl Iterator<Item = BodyIx> + use<'_> {
+        let all = self.alive.each();
+        all.filter(|(_, alive)| **alive).map(|(index, _)| index)
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = &BodyState> {
         self.list
             .iter()
-            .zip(&self.alive)
+            .zip(&*self.alive)
             .filter(|(_, alive)| **alive)
             .map(|(state, _)| state)
     }
@@ -182,23 +180,23 @@ impl Bodies {
         self.list.len()
     }
 
-    pub(crate) fn get(&self, index: u32) -> &BodyState {
-        &self.list[index as usize]
+    pub(crate) fn get(&self, index: BodyIx) -> &BodyState {
+        &self.list[index]
     }
 
     /// For everything but the motion: that changes through [`Bodies::change`].
-    pub(crate) fn get_mut(&mut self, index: u32) -> &mut BodyState {
-        &mut self.list[index as usize]
+    pub(crate) fn get_mut(&mut self, index: BodyIx) -> &mut BodyState {
+        &mut self.list[index]
     }
 
     /// How often the motion of a body has changed.
-    pub(crate) fn version(&self, index: u32) -> u32 {
-        self.versions[index as usize]
+    pub(crate) fn version(&self, index: BodyIx) -> u32 {
+        self.versions[index]
     }
 
     /// The motion of a body from `motion.start` on, turned by `angle` in all; the log keeps what it did till then.
-    pub(crate) fn go_on_as(&mut self, index: u32, motion: &Motion, angle: f64) {
-        let state = &mut self.list[index as usize];
+    pub(crate) fn go_on_as(&mut self, index: BodyIx, motion: &Motion, angle: f64) {
+        let state = &mut self.list[index];
         let whose = (index, state.mass.centroid);
         self.history
             .replaced(whose, &state.motion, None, motion.start);
@@ -207,7 +205,7 @@ impl Bodies {
     }
 
     /// Two bodies.
-    pub(crate) fn both(&self, (a, b): (u32, u32)) -> (&BodyState, &BodyState) {
+    pub(crate) fn both(&self, (a, b): Two<BodyIx>) -> (&BodyState, &BodyState) {
         (self.get(a), self.get(b))
     }
 
@@ -222,7 +220,7 @@ impl Bodies {
     }
 
     /// Gives a body its velocities after an impact; whether it has a mass that moves.
-    pub(crate) fn end_impact(&mut self, index: u32, time: SimTime, after: &ImpactBody) -> bool {
+    pub(crate) fn end_impact(&mut self, index: BodyIx, time: SimTime, after: &ImpactBody) -> bool {
         let moves = after.inverse_mass > 0.0;
         if moves {
             self.change(index, time, |motion| {
@@ -233,21 +231,21 @@ impl Bodies {
     }
 
     /// Gives all shapes of a body the same box.
-    pub(crate) fn set_boxes(&mut self, index: u32, bounds: Aabb) {
-        for &at in &self.list[index as usize].colliders {
+    pub(crate) fn set_boxes(&mut self, index: BodyIx, bounds: Aabb) {
+        for &at in &self.list[index].colliders {
             self.colliders[at].fat = bounds;
         }
     }
 
     /// What was predicted with a body's motion is stale from now on.
-    pub(crate) fn renew(&mut self, index: u32) {
-        let version = &mut self.versions[index as usize];
+    pub(crate) fn renew(&mut self, index: BodyIx) {
+        let version = &mut self.versions[index];
         *version = version.wrapping_add(1);
         self.moved.note(index);
     }
 
     /// Stops a body with numbers that are no longer finite at its last known place.
-    pub(crate) fn stop(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn stop(&mut self, index: BodyIx, time: SimTime) {
         // Its last box is the only record of where it was.
         let known = self.get(index).colliders.iter();
         let mut boxes = known.map(|at| self.colliders[*at].fat.centre());
@@ -279,7 +277,7 @@ impl Bodies {
         let Self {
             list, alive, moved, ..
         } = self;
-        moved.end_step(|index| alive[index as usize].then(|| moves(&list[index as usize])));
+        moved.end_step(|index| alive[index].then(|| moves(&list[index])));
     }
 
     /// Bodies that moved in the last step, and are there.
@@ -289,13 +287,13 @@ impl Bodies {
     }
 
     /// Whether a body flies along anything but a parabola.
-    pub(crate) fn bends(&self, index: u32) -> bool {
+    pub(crate) fn bends(&self, index: BodyIx) -> bool {
         let state = self.get(index);
         state.is_dynamic() && (!self.pull.fields.is_empty() || state.is_damped())
     }
 
     /// Acceleration in m/s², and angular acceleration in rad/s², of a dynamic body that nothing holds.
-    pub(crate) fn freely(&self, index: u32, time: SimTime) -> (Vec2, f64) {
+    pub(crate) fn freely(&self, index: BodyIx, time: SimTime) -> (Vec2, f64) {
         let state = self.get(index);
         let (linear, angular) = state.damping();
         let pull = if self.pull.fields.is_empty() {
@@ -311,7 +309,7 @@ impl Bodies {
 
     /// What accelerates a body at a place besides contacts and damping, in m/s² and rad/s²; a field that is not finite there
     /// accelerates nothing.
-    pub(crate) fn pull_on(&self, index: u32, centre: Vec2) -> (Vec2, f64) {
+    pub(crate) fn pull_on(&self, index: BodyIx, centre: Vec2) -> (Vec2, f64) {
         let state = self.get(index);
         if !state.is_dynamic() {
             return (Vec2::ZERO, 0.0);
@@ -324,15 +322,20 @@ impl Bodies {
 
     /// The one door for changes of a motion: closes the piece that ends at `time`, books its
     /// energy, logs it, and opens the next one with a new version.
-    pub(crate) fn change(&mut self, index: u32, time: SimTime, change: impl FnOnce(&mut Motion)) {
+    pub(crate) fn change(
+        &mut self,
+        index: BodyIx,
+        time: SimTime,
+        change: impl FnOnce(&mut Motion),
+    ) {
         self.touch(index);
-        let state = &self.list[index as usize];
+        let state = &self.list[index];
         let now = state.at(time);
         if let Some(piece) = self.piece(state, time, || now) {
             self.book.forces.add(piece.forces);
             self.book.scheme.add(piece.scheme);
         }
-        let state = &mut self.list[index as usize];
+        let state = &mut self.list[index];
         let whose = (index, state.mass.centroid);
         self.history
             .replaced(whose, &state.motion, state.flight.as_ref(), time);
@@ -406,8 +409,8 @@ impl Bodies {
     }
 
     /// Kinetic and potential energy of one body, in J.
-    pub(crate) fn energy_of(&self, index: u32, time: SimTime) -> (f64, f64) {
-        let state = &self.list[index as usize];
+    pub(crate) fn energy_of(&self, index: BodyIx, time: SimTime) -> (f64, f64) {
+        let state = &self.list[index];
         if !state.is_dynamic() {
             return (0.0, 0.0);
         }

@@ -7,12 +7,13 @@ use carom_collision::Motion;
 use carom_math::{Pose, SimTime, Vec2};
 
 use super::state::drawn_at;
+use crate::BodyIx;
 use crate::law::flight::Flight;
 
 /// What a body did until its motion was replaced.
 #[derive(Clone, Debug)]
 struct Entry {
-    body: u32,
+    body: BodyIx,
     motion: Motion,
     /// The law that the motion stood for.
     flight: Option<Arc<Flight>>,
@@ -59,7 +60,7 @@ impl History {
     /// Keeps the motion that body `index`, with its centre of mass at `centroid`, followed until `until`.
     pub(crate) fn replaced(
         &mut self,
-        (index, centroid): (u32, Vec2),
+        (index, centroid): (BodyIx, Vec2),
         motion: &Motion,
         flight: Option<&Arc<Flight>>,
         until: SimTime,
@@ -85,7 +86,7 @@ impl History {
     }
 
     /// Frame of the shapes that body `index` had at `time`.
-    pub(crate) fn pose_at(&self, index: u32, time: SimTime) -> Option<Pose> {
+    pub(crate) fn pose_at(&self, index: BodyIx, time: SimTime) -> Option<Pose> {
         if time < self.complete_since {
             return None;
         }
@@ -99,7 +100,7 @@ impl History {
     }
 
     /// Forgets a body: another one takes its place.
-    pub(crate) fn forget(&mut self, index: u32) {
+    pub(crate) fn forget(&mut self, index: BodyIx) {
         self.log.retain(|entry| entry.body != index);
     }
 }

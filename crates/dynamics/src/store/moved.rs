@@ -2,40 +2,38 @@
 
 use carom_math::Vec2;
 
-use super::slots::{grown, number};
+use super::slots::List;
 use super::state::BodyState;
-
-/// No place in the list.
-const NONE: u32 = u32::MAX;
+use crate::{BodyIx, Ix, MoverIx};
 
 /// Places of bodies that move, and of those with a changed motion. A flight that goes on costs nothing.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Moved {
     /// Bodies with a motion changed since the last step ended, each once.
-    changed: Vec<u32>,
-    is_changed: Vec<bool>,
+    changed: Vec<BodyIx>,
+    is_changed: List<BodyIx, bool>,
     /// Bodies that move, and where each body is in this list.
-    moving: Vec<u32>,
-    place: Vec<u32>,
+    moving: List<MoverIx, BodyIx>,
+    place: List<BodyIx, MoverIx>,
     /// Bodies at rest with a motion changed in the last step.
-    stopped: Vec<u32>,
+    stopped: Vec<BodyIx>,
 }
 
 impl Moved {
     /// A body has another motion.
-    pub(crate) fn note(&mut self, index: u32) {
-        grown(&mut self.place, index, NONE);
-        if !core::mem::replace(grown(&mut self.is_changed, index, false), true) {
+    pub(crate) fn note(&mut self, index: BodyIx) {
+        self.place.grown(index, MoverIx::NONE);
+        if !core::mem::replace(self.is_changed.grown(index, false), true) {
             self.changed.push(index);
         }
     }
 
     /// A step is over: `moves` tells whether a body moves, or that it is not there any more.
-    pub(crate) fn end_step(&mut self, moves: impl Fn(u32) -> Option<bool>) {
+    pub(crate) fn end_step(&mut self, moves: impl Fn(BodyIx) -> Option<bool>) {
         self.stopped.clear();
         let mut changed = core::mem::take(&mut self.changed);
         for index in changed.drain(..) {
-            self.is_changed[index as usize] = false;
+            self.is_changed[index] = false;
             match moves(index) {
                 Some(true) => self.enter(index),
                 Some(false) => {
@@ -49,23 +47,22 @@ impl Moved {
     }
 
     /// Places of bodies that moved in the last step.
-    pub(crate) fn indices(&self) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn indices(&self) -> impl Iterator<Item = BodyIx> + '_ {
         self.moving.iter().chain(&self.stopped).copied()
     }
 
-    fn enter(&mut self, index: u32) {
-        if self.place[index as usize] == NONE {
-            self.place[index as usize] = number(self.moving.len());
-            self.moving.push(index);
+    fn enter(&mut self, index: BodyIx) {
+        if self.place[index] == MoverIx::NONE {
+            self.place[index] = self.moving.push(index);
         }
     }
 
-    fn leave(&mut self, index: u32) {
-        let place = core::mem::replace(&mut self.place[index as usize], NONE);
-        if place != NONE {
-            self.moving.swap_remove(place as usize);
-            if let Some(moved) = self.moving.get(place as usize) {
-                self.place[*moved as usize] = place;
+    fn leave(&mut self, index: BodyIx) {
+        let place = core::mem::replace(&mut self.place[index], MoverIx::NONE);
+        if place != MoverIx::NONE {
+            self.moving.swap_remove(place.at());
+            if let Some(moved) = self.moving.get(place) {
+                self.place[*moved] = place;
             }
         }
     }

@@ -6,13 +6,13 @@ use carom_math::{SimTime, Vec2};
 
 use super::clock::whole;
 use super::slots::{List, Slots};
-use crate::{ColliderIx, ContactMode, PairIx, PairMaterial, Two};
+use crate::{BodyIx, ColliderIx, ContactMode, PairIx, PairMaterial, Two};
 
 /// Two colliders of different bodies with overlapping boxes; the lower body comes first.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pair {
     pub(crate) colliders: Two<ColliderIx>,
-    pub(crate) bodies: (u32, u32),
+    pub(crate) bodies: Two<BodyIx>,
     pub(crate) material: PairMaterial,
     /// Not looked at yet: what lies beside a body that starts asleep must be known before either is struck.
     pub(crate) fresh: bool,
@@ -39,7 +39,7 @@ pub(crate) struct Pair {
 }
 
 /// Two shapes of two bodies: (body, collider) of both.
-pub(crate) type Shapes = [(u32, ColliderIx); 2];
+pub(crate) type Shapes = [(BodyIx, ColliderIx); 2];
 
 impl Pair {
     /// Its bodies, each with its shape.
@@ -69,13 +69,13 @@ impl Pair {
     }
 
     /// The one of its bodies that is not this one.
-    pub(crate) fn other(&self, body: u32) -> u32 {
+    pub(crate) fn other(&self, body: BodyIx) -> BodyIx {
         let (a, b) = self.bodies;
         if a == body { b } else { a }
     }
 
     /// The shape that this body has in it, and that of the other.
-    pub(crate) fn shapes_from(&self, body: u32) -> Two<ColliderIx> {
+    pub(crate) fn shapes_from(&self, body: BodyIx) -> Two<ColliderIx> {
         let (first, second) = self.colliders;
         if self.bodies.0 == body {
             (first, second)

@@ -34,7 +34,7 @@ use super::bodies::Bodies;
 use super::course::Course;
 use super::membership::Membership;
 use super::state::BodyState;
-use crate::{BodyKind, Mode};
+use crate::{BodyIx, BodyKind, Mode};
 
 /// What moves a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -329,26 +329,26 @@ impl Bodies {
     }
 
     /// The engine moves a body from now on.
-    pub(crate) fn join(&mut self, index: u32) {
+    pub(crate) fn join(&mut self, index: BodyIx) {
         self.count(index, BodyState::join);
     }
 
     /// The engine has a body no more.
-    pub(crate) fn leave(&mut self, index: u32) {
+    pub(crate) fn leave(&mut self, index: BodyIx) {
         self.count(index, BodyState::leave);
     }
 
     /// A body sleeps from now on, where it is; whether something moved it before.
-    pub(crate) fn fall_asleep(&mut self, index: u32) -> bool {
+    pub(crate) fn fall_asleep(&mut self, index: BodyIx) -> bool {
         self.count(index, BodyState::fall_asleep)
     }
 
     /// What moved a sleeper before moves it again; whether the caller took it for asleep.
-    pub(crate) fn wake(&mut self, index: u32) -> bool {
+    pub(crate) fn wake(&mut self, index: BodyIx) -> bool {
         self.count(index, BodyState::wake)
     }
 
-    fn count<T>(&mut self, index: u32, passes: impl FnOnce(&mut BodyState) -> T) -> T {
+    fn count<T>(&mut self, index: BodyIx, passes: impl FnOnce(&mut BodyState) -> T) -> T {
         let state = self.get_mut(index);
         let before = usize::from(state.is_member());
         let said = passes(state);
@@ -373,7 +373,7 @@ impl Bodies {
     }
 
     /// Whether what a body has goes together.
-    pub(crate) fn check_regime(&self, index: u32, mode: Mode) {
+    pub(crate) fn check_regime(&self, index: BodyIx, mode: Mode) {
         if cfg!(debug_assertions) {
             let state = self.get(index);
             if let Err(why) = Regime::check(state, mode) {

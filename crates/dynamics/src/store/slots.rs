@@ -121,21 +121,3 @@ impl<I: Ix, T> Slots<I, T> {
         all.filter_map(|(place, value)| Some((place, value.as_ref()?)))
     }
 }
-
-/// The value at a place of a list, which grows as far as that.
-pub(crate) fn grown<T: Clone>(list: &mut Vec<T>, place: u32, fill: T) -> &mut T {
-    let at = place as usize;
-    if list.len() <= at {
-        list.resize(at + 1, fill);
-    }
-    &mut list[at]
-}
-
-/// The number of a place in a list.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "fewer than 2^32 fit in memory"
-)]
-pub(crate) const fn number(at: usize) -> u32 {
-    at as u32
-}

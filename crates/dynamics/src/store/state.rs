@@ -16,7 +16,7 @@ use super::uncommon::{Lag, Uncommon};
 use crate::impact::ImpactBody;
 use crate::law::flight::Flight;
 use crate::values::error::BodyError;
-use crate::{BodyDef, BodyId, BodyKind, ColliderIx, Filter, Material, Mode, PairIx};
+use crate::{BodyDef, BodyId, BodyIx, BodyKind, ColliderIx, Filter, Material, Mode, PairIx};
 use carom_collision::NodeId;
 
 /// All that a world keeps of one body. Nothing else stores a pose.
@@ -66,7 +66,7 @@ pub(crate) struct Collider {
     /// About the body's centre of mass: what collides.
     pub(crate) solid: Arc<Shape>,
     pub(crate) surface: Arc<Surface>,
-    pub(crate) body: u32,
+    pub(crate) body: BodyIx,
     /// Node in the tree of boxes.
     pub(crate) node: Option<NodeId>,
     /// Box that the pairs were searched with.

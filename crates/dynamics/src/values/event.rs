@@ -216,7 +216,7 @@ mod tests {
     fn a_step_in_which_much_happened_leaves_no_room_behind() {
         let mut events = Events::new(4096);
         let id = BodyId {
-            index: 0,
+            index: crate::BodyIx::default(),
             generation: 0,
         };
         for count in [3000, 2, 0, 0] {

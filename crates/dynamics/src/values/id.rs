@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::BodyIx;
+
 /// A body of a world: small, copyable, never dangling.
 ///
 /// The generation tells a removed body from the one that took its place. Two worlds that were built alike, and a world and its
@@ -9,7 +11,7 @@ use core::fmt;
 /// one of this world's own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BodyId {
-    pub(crate) index: u32,
+    pub(crate) index: BodyIx,
     pub(crate) generation: u32,
 }
 
@@ -17,13 +19,13 @@ impl BodyId {
     /// Position of the body in its world, below the number of bodies that were ever there at once.
     #[must_use]
     pub const fn index(self) -> usize {
-        self.index as usize
+        self.index.0 as usize
     }
 }
 
 impl fmt::Display for BodyId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "body {}", self.index)?;
+        write!(f, "body {}", self.index.0)?;
         if self.generation > 0 {
             write!(f, " (generation {})", self.generation)?;
         }

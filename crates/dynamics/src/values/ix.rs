@@ -39,24 +39,16 @@ macro_rules! numbers {
 }
 
 numbers! {
+    /// A body.
+    BodyIx
     /// A shape of a body.
     ColliderIx
     /// A pair of shapes.
     PairIx
+    /// Of the bodies that move.
+    MoverIx
     /// An analytic island.
     IslandIx
     /// A foreseen impact of free bodies.
     ImpactIx
-}
-
-impl Ix for u32 {
-    const NONE: Self = Self::MAX;
-
-    fn new(number: u32) -> Self {
-        number
-    }
-
-    fn number(self) -> u32 {
-        self
-    }
 }

@@ -9,7 +9,7 @@ use crate::analytic::touching::Gathered;
 use crate::impact::resolve;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
-use crate::{EventKind, ImpactLaw};
+use crate::{BodyIx, EventKind, ImpactLaw};
 
 /// Approach that the impulse begins with, as a part of the slip.
 const NUDGE: f64 = 1e-13;
@@ -24,7 +24,7 @@ pub(crate) fn jam(
     gathered: &Gathered,
     law: ImpactLaw,
     time: SimTime,
-) -> Option<([u32; 2], EventKind)> {
+) -> Option<([BodyIx; 2], EventKind)> {
     let ([touch], [(place, _)]) = (&*gathered.touches, &*gathered.pairs) else {
         return None;
     };

@@ -13,6 +13,7 @@ pub(crate) mod tips;
 
 use carom_math::{SimTime, Vec2, cross_scalar, perp};
 
+use crate::BodyIx;
 use crate::analytic::modes::{BodyMove, TouchMove, carrier};
 use crate::analytic::touching::Gathered;
 use crate::store::bodies::Bodies;
@@ -26,7 +27,7 @@ pub(crate) fn give_motions(
     moves: &[BodyMove],
     (time, speed): (SimTime, f64),
     accelerates: bool,
-) -> (Vec<(u32, u32)>, f64) {
+) -> (Vec<(BodyIx, u32)>, f64) {
     let lost = gathered.kinetic(bodies, time) - kinetic(gathered, moves);
     let driven = driven(bodies, gathered, moves, time);
     bodies.book.impacts.add(lost + driven);
@@ -59,7 +60,7 @@ pub(crate) fn give_motions(
 fn driven(bodies: &Bodies, gathered: &Gathered, moves: &[BodyMove], time: SimTime) -> f64 {
     let carrier = carrier(&gathered.bodies);
     let both = gathered.places.iter().zip(moves);
-    let work = |(index, moved): (&u32, &BodyMove)| {
+    let work = |(index, moved): (&BodyIx, &BodyMove)| {
         let state = bodies.get(*index);
         let came = state.at(time).0.velocity;
         let free = state.inverse_mass > 0.0;

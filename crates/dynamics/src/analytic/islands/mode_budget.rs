@@ -6,10 +6,10 @@
 use carom_math::{SimTime, Vec2};
 
 use super::store::Closed;
+use crate::BodyIx;
 use crate::analytic::modes::BodyMove;
 use crate::analytic::touching::Gathered;
 use crate::store::bodies::Bodies;
-use crate::store::slots::grown;
 use crate::store::state::BodyState;
 
 /// Size of a budget, in mode solves of one body. 16: boxes that rock to rest (`tests/it/rocking.rs`) join before, and part from the
@@ -50,17 +50,17 @@ impl Closed {
     }
 
     /// A body is inserted: its place may be that of an earlier one.
-    pub(crate) fn reset_budget(&mut self, index: u32) {
-        if let Some(budget) = self.budgets.get_mut(index as usize) {
+    pub(crate) fn reset_budget(&mut self, index: BodyIx) {
+        if let Some(budget) = self.budgets.get_mut(index) {
             *budget = ModeBudget::default();
         }
     }
 
     /// Charges each body of an island for a mode solve, with ticks of `tick` seconds.
-    pub(crate) fn charge(&mut self, members: &[u32], time: SimTime, tick: f64) {
+    pub(crate) fn charge(&mut self, members: &[BodyIx], time: SimTime, tick: f64) {
         let cost = members.len() as f64;
         for &index in members {
-            let budget = grown(&mut self.budgets, index, ModeBudget::default());
+            let budget = self.budgets.grown(index, ModeBudget::default());
             if budget.charge(cost, time, tick) {
                 self.exhausted.push(index);
             }
@@ -68,7 +68,7 @@ impl Closed {
     }
 
     /// Takes out the bodies with exhausted budgets, in order.
-    pub(crate) fn take_exhausted(&mut self) -> Vec<u32> {
+    pub(crate) fn take_exhausted(&mut self) -> Vec<BodyIx> {
         let mut exhausted = core::mem::take(&mut self.exhausted);
         exhausted.sort_unstable();
         exhausted.dedup();

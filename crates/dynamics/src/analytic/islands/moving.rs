@@ -10,7 +10,7 @@ use crate::model::narrow::look;
 use crate::motion::flight::begin_held_piece;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::{Pair, Pairs};
-use crate::{ContactMode, IslandIx, PairIx};
+use crate::{BodyIx, ContactMode, IslandIx, PairIx};
 
 impl Group {
     /// Whether its members go on as its mode says, and nothing lies deep in one of them.
@@ -49,7 +49,7 @@ impl Group {
 
 impl Closed {
     /// The next piece of the path of a member of a group that turns.
-    pub(crate) fn begin_next_piece(&mut self, bodies: &mut Bodies, index: u32, time: SimTime) {
+    pub(crate) fn begin_next_piece(&mut self, bodies: &mut Bodies, index: BodyIx, time: SimTime) {
         let place = bodies.get(index).membership.group;
         let Some(group) = self.get_mut(place) else {
             return;

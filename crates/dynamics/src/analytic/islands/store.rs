@@ -13,8 +13,8 @@ use crate::model::narrow::TOUCH;
 use crate::store::bodies::Bodies;
 use crate::store::membership::Membership;
 use crate::store::pairs::{Pair, Pairs};
-use crate::store::slots::{Slots, grown};
-use crate::{ContactMode, IslandIx, Mode, PairIx};
+use crate::store::slots::{List, Slots};
+use crate::{BodyIx, ContactMode, IslandIx, Mode, PairIx};
 
 /// What is no longer than this is one instant, in s.
 const INSTANT: f64 = 1e-12;
@@ -45,18 +45,18 @@ pub(crate) struct Closed {
     begun: Vec<(bool, IslandIx, u64)>,
     /// By place of a body: when its mode solves of one instant began, and how many they were; the same of those
     /// in the time of a sub-step.
-    stalls: Vec<[(SimTime, u32); 2]>,
+    stalls: List<BodyIx, [(SimTime, u32); 2]>,
     /// By place of a body.
-    pub(super) budgets: Vec<ModeBudget>,
+    pub(super) budgets: List<BodyIx, ModeBudget>,
     /// Bodies with an exhausted budget: their islands join with the next sub-step.
-    pub(super) exhausted: Vec<u32>,
+    pub(super) exhausted: Vec<BodyIx>,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) struct Group {
     pub(crate) since: SimTime,
     /// Dynamic members, and the version that their motion has since then.
-    pub(crate) members: Vec<(u32, u32)>,
+    pub(crate) members: Vec<(BodyIx, u32)>,
     pub(crate) touches: Vec<Kept>,
     /// Largest speed of the mode: what its roundings are measured by, in m/s.
     pub(crate) speed: f64,
@@ -81,7 +81,7 @@ impl Group {
     }
 
     /// Its dynamic members.
-    pub(crate) fn indices(&self) -> Vec<u32> {
+    pub(crate) fn indices(&self) -> Vec<BodyIx> {
         self.members.iter().map(|(index, _)| *index).collect()
     }
 
@@ -217,7 +217,7 @@ impl Closed {
     }
 
     /// The group of a body, if it has one.
-    pub(crate) fn group_of(&self, bodies: &Bodies, index: u32) -> Option<&Group> {
+    pub(crate) fn group_of(&self, bodies: &Bodies, index: BodyIx) -> Option<&Group> {
         self.get(bodies.get(index).membership.group)
     }
 
@@ -303,7 +303,7 @@ impl Closed {
     /// much for a sub-step of `h` seconds.
     pub(crate) fn stalls(
         &mut self,
-        index: u32,
+        index: BodyIx,
         bodies: u32,
         time: SimTime,
         (h, mode): (f64, Mode),
@@ -312,7 +312,7 @@ impl Closed {
             Mode::Exact => (OFTEN_EXACT, 1),
             Mode::Hybrid | Mode::Stepped => (OFTEN, bodies.saturating_pow(3)),
         };
-        let known = grown(&mut self.stalls, index, [(SimTime::ZERO, 0); 2]);
+        let known = self.stalls.grown(index, [(SimTime::ZERO, 0); 2]);
         let mut stalls = false;
         let limits = [(INSTANT, STALLED, 1), (h, often, cost)];
         for ((since, count), (span, most, cost)) in known.iter_mut().zip(limits) {
@@ -330,6 +330,7 @@ impl Closed {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Ix;
 
     #[test]
     fn mode_solves_that_only_rounding_moves_on_come_to_an_end() {
@@ -338,15 +339,15 @@ mod tests {
         let mut time = SimTime::ZERO + 0.25;
         let solves = (0..1000).take_while(|_| {
             time += 4.6e-17;
-            !closed.stalls(3, 1, time, (1e-3, Mode::Exact))
+            !closed.stalls(BodyIx::new(3), 1, time, (1e-3, Mode::Exact))
         });
         assert!(solves.count() <= 17);
         assert!(
-            !closed.stalls(2, 1, time, (1e-3, Mode::Exact)),
+            !closed.stalls(BodyIx::new(2), 1, time, (1e-3, Mode::Exact)),
             "another body is another matter"
         );
         assert!(
-            !closed.stalls(3, 1, time + 1e-9, (1e-3, Mode::Exact)),
+            !closed.stalls(BodyIx::new(3), 1, time + 1e-9, (1e-3, Mode::Exact)),
             "the next instant is another"
         );
     }
@@ -365,11 +366,11 @@ mod tests {
             let mut time = SimTime::ZERO + 0.25;
             let solved = (0..100_000).take_while(|_| {
                 time += 8e-12;
-                !closed.stalls(3, bodies, time, (h, mode))
+                !closed.stalls(BodyIx::new(3), bodies, time, (h, mode))
             });
             assert_eq!(solved.count(), most, "{mode:?}");
             assert!(
-                !closed.stalls(3, bodies, time + h, (h, mode)),
+                !closed.stalls(BodyIx::new(3), bodies, time + h, (h, mode)),
                 "the next sub-step is another"
             );
         }

@@ -4,13 +4,13 @@ use arrayvec::ArrayVec;
 use carom_math::SimTime;
 
 use super::joints::{Held, joint};
-use crate::Mode;
 use crate::analytic::modes::NotMine;
 use crate::analytic::tipping::{Contact, Joint, Tip, tip};
 use crate::analytic::touching::Gathered;
 use crate::law::path::Place;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
+use crate::{BodyIx, Mode};
 
 /// A corner this near to a point of contact is what touches there, as a part of the smaller reach.
 const NEAR: f64 = 1e-6;
@@ -33,7 +33,7 @@ pub(crate) fn path_of(
         return Err(NotMine::TooLarge);
     }
     // Free bodies land first.
-    let is_free = |index: &u32| bodies.get(*index).is_free();
+    let is_free = |index: &BodyIx| bodies.get(*index).is_free();
     if gathered.places.iter().any(is_free) {
         return Err(NotMine::Turns);
     }

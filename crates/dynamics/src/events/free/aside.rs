@@ -6,13 +6,14 @@
 use std::collections::BTreeSet;
 
 use super::queue::Entry;
+use crate::BodyIx;
 
 /// Impacts laid aside, in order, and by body.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Aside {
     entries: BTreeSet<Entry>,
     /// `None` comes before all entries of a body.
-    by_body: BTreeSet<(u32, Option<Entry>)>,
+    by_body: BTreeSet<(BodyIx, Option<Entry>)>,
 }
 
 impl Aside {
@@ -22,20 +23,20 @@ impl Aside {
 
     pub(super) fn lay(&mut self, entry: Entry) {
         self.entries.insert(entry);
-        for body in [entry.a, entry.b] {
+        for body in [entry.a, entry.other()] {
             self.by_body.insert((body, Some(entry)));
         }
     }
 
     pub(super) fn take(&mut self, entry: &Entry) {
         self.entries.remove(entry);
-        for body in [entry.a, entry.b] {
+        for body in [entry.a, entry.other()] {
             self.by_body.remove(&(body, Some(*entry)));
         }
     }
 
     /// Those of a body, in order.
-    pub(super) fn of(&self, body: u32) -> impl Iterator<Item = &Entry> {
+    pub(super) fn of(&self, body: BodyIx) -> impl Iterator<Item = &Entry> {
         self.by_body
             .range((body, None)..)
             .take_while(move |(other, _)| *other == body)

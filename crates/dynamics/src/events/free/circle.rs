@@ -4,6 +4,7 @@ use carom_math::{SimTime, Vec2};
 
 use super::FreeBodies;
 use super::foresee::both_in_grid;
+use crate::BodyIx;
 use crate::broad::free_fall_frame::{Frame, Track};
 use crate::broad::window::{self, Window};
 use crate::store::bodies::Bodies;
@@ -78,9 +79,9 @@ impl Registered {
 
 impl FreeBodies {
     /// Of a body that looks round: its circle, and whether it falls as the frame does, if it is in the grid.
-    pub(super) fn looks(&self, bodies: &Bodies, body: u32, time: SimTime) -> Look {
+    pub(super) fn looks(&self, bodies: &Bodies, body: BodyIx, time: SimTime) -> Look {
         let state = bodies.get(body);
-        let known = self.circles.get(body as usize);
+        let known = self.circles.get(body);
         let known = known.filter(|_| state.course.cells.is_some());
         Look {
             circle: Circle::of(state, time),
@@ -94,11 +95,11 @@ impl FreeBodies {
         &self,
         bodies: &Bodies,
         look: &Look,
-        body: u32,
+        body: BodyIx,
         time: SimTime,
     ) -> Option<Window> {
         let (own, acceleration) = (&look.circle, self.frame.acceleration());
-        match self.circles.get(body as usize) {
+        match self.circles.get(body) {
             // The bits of [`Circle::of`] and [`Circle::meets`].
             Some(known) if known.falls && look.falls => {
                 let u = time - known.since;

@@ -10,7 +10,7 @@ use crate::broad::grid::SweptBox;
 use crate::broad::window::{Window, swept};
 use crate::store::state::BodyState;
 use crate::store::swept::Sides;
-use crate::{BodyKind, ColliderIx, Ix, PairSearch, Two, World};
+use crate::{BodyIx, BodyKind, ColliderIx, Ix, PairSearch, Two, World};
 
 /// Part of a cell that a free body travels within its horizon.
 const TRAVEL: f64 = 0.35;
@@ -35,7 +35,13 @@ pub(crate) enum Cause {
 impl World {
     /// Registers a free body with its motion from `time` on, and finds all that it may meet up to its
     /// horizon, `but` for a free body that looks for this one next.
-    pub(crate) fn foresee(&mut self, index: u32, time: SimTime, cause: Cause, but: Option<u32>) {
+    pub(crate) fn foresee(
+        &mut self,
+        index: BodyIx,
+        time: SimTime,
+        cause: Cause,
+        but: Option<BodyIx>,
+    ) {
         self.follow_law(index, time);
         if !self.bodies.get(index).motion.is_finite() {
             self.report.stopped += 1;
@@ -58,7 +64,7 @@ impl World {
     }
 
     /// Registers a free body in the grid up to its horizon; whether it fits.
-    fn look_round(&mut self, index: u32, time: SimTime) -> bool {
+    fn look_round(&mut self, index: BodyIx, time: SimTime) -> bool {
         let way = TRAVEL * self.free.grid.side();
         let state = self.bodies.get_mut(index);
         let track = Track::of(&state.motion, time);
@@ -74,7 +80,7 @@ impl World {
     }
 
     /// Boxes in the tree of a free body that is too large for the grid, for `least` seconds or more.
-    pub(super) fn follow(&mut self, index: u32, time: SimTime, least: f64) {
+    pub(super) fn follow(&mut self, index: BodyIx, time: SimTime, least: f64) {
         let side = self.free.grid.side();
         let state = self.bodies.get_mut(index);
         let way = if state.moves_analytically() {
@@ -95,7 +101,7 @@ impl World {
 
     /// Enters the end of a search, unless an earlier entry will come to it: a motion changes more often
     /// than its searches end.
-    pub(super) fn queue_end(&mut self, index: u32, what: What) {
+    pub(super) fn queue_end(&mut self, index: BodyIx, what: What) {
         let state = self.bodies.get_mut(index);
         let end = self.free.end(state, what);
         let entered = state.course.entered(what);
@@ -106,7 +112,7 @@ impl World {
         self.free.queue.push(Entry {
             time: end,
             a: index,
-            b: index,
+            b: index.number(),
             stamp: 0,
             what,
         });
@@ -123,7 +129,7 @@ impl World {
             self.free.leave(&mut self.bodies, index);
         }
         self.free.frame = self.free.frame.boosted(time, mean);
-        let (fit, large): (Vec<u32>, Vec<u32>) = free
+        let (fit, large): (Vec<BodyIx>, Vec<BodyIx>) = free
             .into_iter()
             .partition(|index| self.look_round(*index, time));
         for index in fit {
@@ -138,10 +144,10 @@ impl World {
     /// Free bodies that `index` may meet up to its horizon.
     pub(super) fn meet_free_bodies(
         &mut self,
-        index: u32,
+        index: BodyIx,
         time: SimTime,
         cause: Cause,
-        but: Option<u32>,
+        but: Option<BodyIx>,
     ) {
         let course = &self.bodies.get(index).course;
         let mut near = match course.cells {
@@ -182,8 +188,8 @@ impl World {
     /// Two free bodies with circles that meet, perhaps before one of their horizons ends.
     pub(super) fn approach(
         &mut self,
-        index: u32,
-        other: u32,
+        index: BodyIx,
+        other: BodyIx,
         window: Window,
         time: SimTime,
         cause: Cause,
@@ -208,26 +214,26 @@ impl World {
         if cause == Cause::Horizon && window.to.is_finite() && both_in_grid(a, b) {
             return;
         }
-        self.seek(index, other, time, window, cause);
+        self.seek((index, other), time, window, cause);
     }
 
-    pub(super) fn queue_near(&mut self, a: u32, b: u32, time: SimTime) {
+    pub(super) fn queue_near(&mut self, a: BodyIx, b: BodyIx, time: SimTime) {
         let (a, b) = if a < b { (a, b) } else { (b, a) };
         let entry = Entry {
             time,
             a,
-            b,
+            b: b.number(),
             stamp: self.stamp(a, b),
             what: What::NEAR,
         };
         self.free.queue.push(entry);
     }
 
-    pub(super) fn stamp(&self, a: u32, b: u32) -> u32 {
+    pub(super) fn stamp(&self, a: BodyIx, b: BodyIx) -> u32 {
         self.bodies.version(a).wrapping_add(self.bodies.version(b))
     }
 
-    pub(super) fn queue_near_shape(&mut self, index: u32, at: ColliderIx, time: SimTime) {
+    pub(super) fn queue_near_shape(&mut self, index: BodyIx, at: ColliderIx, time: SimTime) {
         let entry = Entry {
             time,
             a: index,
@@ -241,7 +247,7 @@ impl World {
     /// Another look at a pair of bodies that a free body belongs to, at `time`.
     pub(super) fn look_again(
         &mut self,
-        (a, b): (u32, u32),
+        (a, b): Two<BodyIx>,
         shapes: Two<ColliderIx>,
         time: SimTime,
     ) {
@@ -266,7 +272,7 @@ impl World {
         if self.free.drifts {
             self.retune(entry.time);
         }
-        if self.stamp(entry.a, entry.b) != entry.stamp {
+        if self.stamp(entry.a, entry.other()) != entry.stamp {
             return;
         }
         if self.moving_end(impact.bodies).is_some() && self.approaches(&impact, entry.time) {
@@ -302,8 +308,9 @@ impl World {
                 }
             }
             What::NEAR => {
-                if self.stamp(index, entry.b) == entry.stamp && self.both_fly(index, entry.b) {
-                    self.come_near(index, entry.b, time);
+                let other = entry.other();
+                if self.stamp(index, other) == entry.stamp && self.both_fly(index, other) {
+                    self.come_near(index, other, time);
                 }
             }
             What::NEAR_SHAPE => {
@@ -320,7 +327,7 @@ impl World {
             _ => {
                 // Impacts are run elsewhere.
                 if entry.what == What::COLLAPSE && !is_stale(entry, &self.bodies) {
-                    self.report_collapse((index, entry.b), 0.0, time);
+                    self.report_collapse((index, entry.other()), 0.0, time);
                 }
             }
         }
@@ -346,7 +353,7 @@ impl World {
         end == entry.time
     }
 
-    pub(super) fn both_fly(&self, a: u32, b: u32) -> bool {
+    pub(super) fn both_fly(&self, a: BodyIx, b: BodyIx) -> bool {
         self.bodies.get(a).goes_by_events() && self.bodies.get(b).goes_by_events()
     }
 }

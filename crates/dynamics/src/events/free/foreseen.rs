@@ -7,12 +7,12 @@ use carom_math::{SimTime, Vec2};
 use super::FreeBodies;
 use super::queue::{Entry, What};
 use crate::store::bodies::Bodies;
-use crate::{BodyId, ColliderIx, Two};
+use crate::{BodyId, BodyIx, ColliderIx, Ix, Two};
 
 /// An impact ahead: all that its response needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Foreseen {
-    pub(crate) bodies: (u32, u32),
+    pub(crate) bodies: Two<BodyIx>,
     pub(crate) colliders: Two<ColliderIx>,
     /// Unit normal from the first body to the second.
     pub(crate) normal: Vec2,
@@ -24,7 +24,7 @@ pub(crate) struct Foreseen {
 
 impl Foreseen {
     /// What a search found for these shapes of two bodies.
-    pub(super) fn of(bodies: (u32, u32), colliders: Two<ColliderIx>, impact: &Impact) -> Self {
+    pub(super) fn of(bodies: Two<BodyIx>, colliders: Two<ColliderIx>, impact: &Impact) -> Self {
         Self {
             bodies,
             colliders,
@@ -83,7 +83,7 @@ impl FreeBodies {
     }
 
     /// Takes the impacts of a body that were laid aside and are due by `limit`, in order.
-    pub(super) fn take_aside(&mut self, body: u32, limit: SimTime) -> Vec<Entry> {
+    pub(super) fn take_aside(&mut self, body: BodyIx, limit: SimTime) -> Vec<Entry> {
         let due = self.aside.of(body).take_while(|e| e.time <= limit);
         let due: Vec<Entry> = due.copied().collect();
         for entry in &due {
@@ -102,7 +102,7 @@ impl FreeBodies {
         self.queue.push(Entry {
             time,
             a,
-            b,
+            b: b.number(),
             stamp,
             what: What::impact(slot),
         });
@@ -114,7 +114,7 @@ impl FreeBodies {
         self.queue.push(Entry {
             time,
             a,
-            b,
+            b: b.number(),
             stamp: generations(ids),
             what: What::COLLAPSE,
         });
@@ -123,17 +123,17 @@ impl FreeBodies {
 
 /// Whether an entry is for nothing: a motion has changed since it was made, or another one comes before it.
 pub(super) fn is_stale(entry: &Entry, bodies: &Bodies) -> bool {
-    let version = |index: u32| bodies.version(index);
+    let version = |index: BodyIx| bodies.version(index);
     let other = match entry.what {
         What::COLLAPSE => {
-            let ids = [entry.a, entry.b].map(|index| bodies.get(index).id);
-            let alive = bodies.is_alive(entry.a) && bodies.is_alive(entry.b);
+            let ids = [entry.a, entry.other()].map(|index| bodies.get(index).id);
+            let alive = bodies.is_alive(entry.a) && bodies.is_alive(entry.other());
             return !alive || generations(ids) != entry.stamp;
         }
         What::HORIZON => return bodies.get(entry.a).course.entered.0 != entry.time,
         What::GROUND => return bodies.get(entry.a).course.entered.1 != entry.time,
         What::NEAR_SHAPE => bodies.colliders[entry.shape()].body,
-        _ => entry.b,
+        _ => entry.other(),
     };
     version(entry.a).wrapping_add(version(other)) != entry.stamp
 }

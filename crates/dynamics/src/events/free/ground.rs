@@ -9,7 +9,7 @@ use super::queue::What;
 use crate::broad::free_fall_frame::Track;
 use crate::broad::window::{self, room_about, swept};
 use crate::store::swept::Sides;
-use crate::{BodyKind, ColliderIx, World};
+use crate::{BodyIx, BodyKind, ColliderIx, World};
 
 /// Longest way, in cells, that a free body looks down for first, and the shortest, as a part of it. Cells are as wide as free bodies
 /// are apart: what does not fly may lie far closer.
@@ -25,7 +25,7 @@ const CLEARING: f64 = 0.75;
 
 impl World {
     /// Boxes of a free body in the world for the next `span` seconds; without end while nothing is there.
-    pub(super) fn look_down(&mut self, index: u32, time: SimTime, span: f64) {
+    pub(super) fn look_down(&mut self, index: BodyIx, time: SimTime, span: f64) {
         if !self.free.grounded {
             let state = self.bodies.get_mut(index);
             state.course.ground = SimTime::NEVER;
@@ -52,7 +52,7 @@ impl World {
 
     /// Whether a free body with a new motion stays in a clearing for as long as it has looked round: where it looked down
     /// last, nothing was there, and nothing has come. It does not look down again before it leaves.
-    pub(super) fn is_clear(&mut self, index: u32, time: SimTime) -> bool {
+    pub(super) fn is_clear(&mut self, index: BodyIx, time: SimTime) -> bool {
         let (clears, changed) = (self.clears(), self.broad.changed);
         let state = self.bodies.get_mut(index);
         // Not at the same instant: what is found must not depend on the order in which bodies come.
@@ -107,7 +107,7 @@ impl World {
     }
 
     /// How long a free body with a new motion looks down for, in s.
-    pub(super) fn first_span(&self, index: u32, time: SimTime) -> f64 {
+    pub(super) fn first_span(&self, index: BodyIx, time: SimTime) -> f64 {
         let track = Track::of(&self.bodies.get(index).motion, time);
         let way = SPAN * self.bodies.get(index).course.look;
         track.seconds_for(way * self.free.grid.side())
@@ -115,7 +115,7 @@ impl World {
 
     /// Shapes in the tree that `index` may meet before it looks down again: of bodies that do not fly,
     /// and of free bodies too large for the grid.
-    pub(super) fn meet_shapes(&mut self, index: u32, time: SimTime, cause: Cause) {
+    pub(super) fn meet_shapes(&mut self, index: BodyIx, time: SimTime, cause: Cause) {
         let mut near = core::mem::take(&mut self.free.shapes);
         let reached = self.bodies.get(index).course.reached.bounds();
         self.broad.search_tree(&self.bodies, reached, &mut near);
@@ -159,7 +159,7 @@ impl World {
     /// A free body and a shape that rests.
     pub(crate) fn approach_shape(
         &mut self,
-        index: u32,
+        index: BodyIx,
         at: ColliderIx,
         time: SimTime,
         cause: Cause,
@@ -195,7 +195,7 @@ impl World {
     }
 
     /// What does not fly is looked for anew: twice as far ahead where there was nothing.
-    pub(super) fn look_down_again(&mut self, index: u32, time: SimTime) {
+    pub(super) fn look_down_again(&mut self, index: BodyIx, time: SimTime) {
         let state = self.bodies.get(index);
         let course = &state.course;
         let factor = if course.alone { 2.0 } else { 1.0 };

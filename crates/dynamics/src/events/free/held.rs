@@ -8,7 +8,7 @@ use crate::model::graph::pair_of;
 use crate::model::narrow::{NOISE, SUNK, TOUCH, look, opening_speed, pace};
 use crate::motion::flight::fly;
 use crate::store::pairs::PairContact;
-use crate::{BodyKind, Mode, PairIx, World};
+use crate::{BodyIx, BodyKind, Mode, PairIx, Two, World};
 
 /// Landings of two bodies on each other at one instant.
 const LANDINGS: u32 = 16;
@@ -63,7 +63,7 @@ impl World {
             }
             self.hand_back_of(index, time);
         }
-        let is_stepped = |index: u32| self.bodies.get(index).is_stepped();
+        let is_stepped = |index: BodyIx| self.bodies.get(index).is_stepped();
         if woke && !is_stepped(a) && !is_stepped(b) {
             // Nothing held it.
             return self.strike_free_body(impact, time);
@@ -100,7 +100,7 @@ impl World {
 
     /// Something holds this body from now on, or is too near to tell: it gets its method before time goes on. Whether it moved by
     /// events.
-    pub(crate) fn land(&mut self, index: u32, time: SimTime) -> bool {
+    pub(crate) fn land(&mut self, index: BodyIx, time: SimTime) -> bool {
         let lands = self.leave_flight(index, time);
         if lands {
             self.redirect(index, time);
@@ -109,13 +109,13 @@ impl World {
         lands
     }
 
-    pub(super) fn land_both(&mut self, (a, b): (u32, u32), time: SimTime) {
+    pub(super) fn land_both(&mut self, (a, b): Two<BodyIx>, time: SimTime) {
         self.land(a, time);
         self.land(b, time);
     }
 
     /// As [`Self::land`], of a body that is about to be solved for with the island that it touches.
-    pub(crate) fn land_first(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn land_first(&mut self, index: BodyIx, time: SimTime) {
         if self.leave_flight(index, time) {
             self.redirect(index, time);
             self.part_far(index, time);
@@ -123,7 +123,7 @@ impl World {
     }
 
     /// Forgets the pairs of a body that its boxes have left: a free body's reach farther.
-    fn part_far(&mut self, index: u32, time: SimTime) {
+    fn part_far(&mut self, index: BodyIx, time: SimTime) {
         let keeps = |place: &PairIx| self.broad.keeps(&self.bodies, self.pairs.shapes(*place));
         let pairs = self.bodies.get(index).pairs.iter();
         let far: Vec<PairIx> = pairs.filter(|place| !keeps(place)).copied().collect();
@@ -133,7 +133,7 @@ impl World {
     }
 
     /// A free body leaves flight; whether it was free.
-    fn leave_flight(&mut self, index: u32, time: SimTime) -> bool {
+    fn leave_flight(&mut self, index: BodyIx, time: SimTime) -> bool {
         if self.hand_back_of(index, time) {
             return true;
         }
@@ -152,7 +152,7 @@ impl World {
     }
 
     /// A body that nothing holds any more flies from event to event.
-    pub(crate) fn take_off(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn take_off(&mut self, index: BodyIx, time: SimTime) {
         self.leave_group(index, time);
         self.end_unsettled(index);
         for place in self.bodies.get(index).pairs.clone() {
@@ -171,7 +171,7 @@ impl World {
     }
 
     /// Bodies that woke, lost their support, or have another velocity fly at once if nothing holds them.
-    pub(crate) fn drop_unheld(&mut self, bodies: &[u32], time: SimTime) {
+    pub(crate) fn drop_unheld(&mut self, bodies: &[BodyIx], time: SimTime) {
         for &index in bodies {
             if !self.hangs(index, time) {
                 continue;
@@ -182,7 +182,7 @@ impl World {
     }
 
     /// Whether a body has no method yet, nothing that does not fly holds it, and nothing overlaps it.
-    fn hangs(&mut self, index: u32, time: SimTime) -> bool {
+    fn hangs(&mut self, index: BodyIx, time: SimTime) -> bool {
         let state = self.bodies.get(index);
         let stepped = self.settings.mode == Mode::Stepped;
         if stepped || !state.is_unsolved() {
@@ -215,7 +215,7 @@ impl World {
     }
 
     /// A body gets its method before time goes on.
-    pub(crate) fn unsettle(&mut self, index: u32, time: SimTime) {
+    pub(crate) fn unsettle(&mut self, index: BodyIx, time: SimTime) {
         // A group that is taken apart may have met a member, and joined.
         if self.bodies.get(index).in_engine() {
             return;
@@ -237,7 +237,7 @@ impl World {
     }
 
     /// A body has its method.
-    pub(crate) fn end_unsettled(&mut self, index: u32) {
+    pub(crate) fn end_unsettled(&mut self, index: BodyIx) {
         if self.unsettled.remove(&index) {
             self.lower_free_boxes_later();
         }

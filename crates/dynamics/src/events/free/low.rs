@@ -4,11 +4,11 @@ use carom_math::SimTime;
 
 use super::Foreseen;
 use super::strike::approach_speed;
-use crate::ColliderIx;
 use crate::model::gap::{Touching, gap_acceleration};
 use crate::store::bodies::Bodies;
 use crate::store::mass::CENTRED;
 use crate::store::state::BodyState;
+use crate::{BodyIx, ColliderIx};
 
 /// Height of a bounce below which it is timed by its speeds, as a fraction of the smaller reach, where
 /// the normal turns: rounding of the gap is 1e-6 of it.
@@ -84,7 +84,7 @@ pub(super) fn bounces_high(bodies: &Bodies, impact: &Foreseen, time: SimTime, sp
 
 /// How fast two bodies are pressed together where they touch, in m/s²; negative: pulled apart.
 pub(super) fn press(bodies: &Bodies, impact: &Foreseen, time: SimTime) -> f64 {
-    let feature = |index: u32, at: ColliderIx, number: u32| {
+    let feature = |index: BodyIx, at: ColliderIx, number: u32| {
         let mut motion = bodies.get(index).motion;
         if bodies.bends(index) {
             motion = bodies.get(index).at(time).0;

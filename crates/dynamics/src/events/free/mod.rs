@@ -30,9 +30,9 @@ use crate::broad::free_fall_frame::{Frame, Track};
 use crate::broad::grid::{Grid, SweptBox};
 use crate::store::bodies::Bodies;
 use crate::store::course::Course;
-use crate::store::slots::{Slots, grown};
+use crate::store::slots::{List, Slots};
 use crate::store::state::BodyState;
-use crate::{ColliderIx, ImpactIx, Two};
+use crate::{BodyIx, ColliderIx, ImpactIx, Two};
 use aside::Aside;
 use circle::Registered;
 pub(crate) use foresee::Cause;
@@ -74,18 +74,18 @@ pub(crate) struct FreeBodies {
     /// When they go, if no body waits for its method then.
     raised_until: SimTime,
     /// Their nodes there, by body.
-    nodes: Vec<Option<NodeId>>,
+    nodes: List<BodyIx, Option<NodeId>>,
     /// Bodies in the grid.
-    in_grid: BTreeSet<u32>,
+    in_grid: BTreeSet<BodyIx>,
     /// Circles of the grid's free bodies, by body.
-    circles: Vec<Registered>,
+    circles: List<BodyIx, Registered>,
     /// Until when they have looked round for each other, by body.
-    horizons: Vec<SimTime>,
+    horizons: List<BodyIx, SimTime>,
     queue: Queue,
     aside: Aside,
     impacts: Slots<ImpactIx, Foreseen>,
     /// Mark of the last search that met a body.
-    seen: Vec<u32>,
+    seen: List<BodyIx, u32>,
     mark: u32,
     /// Since the cells were sized: searches, those at the ends of horizons, and the boxes they tested.
     searches: usize,
@@ -94,14 +94,14 @@ pub(crate) struct FreeBodies {
     /// They were of the right size when that was last looked at.
     fits: bool,
     /// Scratch of a search: free bodies, and shapes of bodies that are not free.
-    near: Vec<u32>,
+    near: Vec<BodyIx>,
     shapes: Vec<ColliderIx>,
     /// The end of a micro-bounce, in s from the impact that is being resolved.
     micro_bounce: Option<(f64, Foreseen)>,
     /// The shapes in the impact that is being resolved, and where they part.
     struck: Option<(Two<ColliderIx>, ImpactFeature)>,
     /// Bodies that began to last in contact, when, and how often at that instant.
-    lasting: ((u32, u32), SimTime, u32),
+    lasting: (Two<BodyIx>, SimTime, u32),
 }
 
 impl FreeBodies {
@@ -123,7 +123,7 @@ impl FreeBodies {
     /// Until when other free bodies have been looked for; by those that are not in the grid, where they look for all.
     fn horizon(&self, state: &BodyState) -> SimTime {
         if state.course.cells.is_some() {
-            self.horizons[state.id.index as usize]
+            self.horizons[state.id.index]
         } else {
             state.course.ground
         }
@@ -147,7 +147,7 @@ impl FreeBodies {
     }
 
     /// Puts a body into the grid, if it fits, or where it belongs there by now.
-    fn enter(&mut self, bodies: &mut Bodies, index: u32, horizon: SimTime) -> bool {
+    fn enter(&mut self, bodies: &mut Bodies, index: BodyIx, horizon: SimTime) -> bool {
         let course = &mut bodies.get_mut(index).course;
         let cells = self.grid.cells(course.swept.bounds());
         if !course.swept.is_finite() || cells.count() > MOST_CELLS {
@@ -163,13 +163,13 @@ impl FreeBodies {
             }
         }
         let circle = Registered::of(bodies.get(index), &self.frame);
-        *grown(&mut self.circles, index, Registered::default()) = circle;
-        *grown(&mut self.horizons, index, SimTime::ZERO) = horizon;
+        *self.circles.grown(index, Registered::default()) = circle;
+        *self.horizons.grown(index, SimTime::ZERO) = horizon;
         true
     }
 
     /// Takes a body out of the grid.
-    fn leave(&mut self, bodies: &mut Bodies, index: u32) {
+    fn leave(&mut self, bodies: &mut Bodies, index: BodyIx) {
         let course = &mut bodies.get_mut(index).course;
         if let Some(cells) = course.cells.take() {
             self.grid.remove(index, cells);
@@ -178,7 +178,7 @@ impl FreeBodies {
     }
 
     /// Bodies of the grid, in order.
-    fn in_order(&self) -> Vec<u32> {
+    fn in_order(&self) -> Vec<BodyIx> {
         self.in_grid.iter().copied().collect()
     }
 
@@ -225,7 +225,7 @@ impl FreeBodies {
 }
 
 /// Mean velocity of free bodies in the frame, in m/s, where it is faster than they are among themselves.
-fn drift(frame: &Frame, bodies: &Bodies, free: &[u32], time: SimTime) -> Option<Vec2> {
+fn drift(frame: &Frame, bodies: &Bodies, free: &[BodyIx], time: SimTime) -> Option<Vec2> {
     let (mut sum, mut squares) = (Vec2::ZERO, 0.0);
     for &index in free {
         let track = Track::of(&bodies.get(index).motion, time);

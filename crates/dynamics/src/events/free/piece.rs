@@ -2,14 +2,14 @@
 
 use carom_math::SimTime;
 
-use crate::World;
 use crate::motion::flight::begin_piece;
+use crate::{BodyIx, World};
 
 impl World {
     /// Gives a free body in a field or with damping the piece of its law that begins at `time`, if it has none that goes on.
     ///
     /// All predictions for a free body are for its piece, and all its searches end with it.
-    pub(super) fn follow_law(&mut self, index: u32, time: SimTime) {
+    pub(super) fn follow_law(&mut self, index: BodyIx, time: SimTime) {
         // Its law is its group's.
         if self.bodies.get(index).moves_analytically() {
             if self.piece_ends(index, time) {
@@ -30,7 +30,7 @@ impl World {
     }
 
     /// Whether the motion of a free body stands for its law until now, and no longer.
-    pub(super) fn piece_ends(&self, index: u32, time: SimTime) -> bool {
+    pub(super) fn piece_ends(&self, index: BodyIx, time: SimTime) -> bool {
         self.bodies.get(index).piece() <= time
     }
 }

@@ -8,12 +8,12 @@ use super::FreeBodies;
 use crate::broad::grid::SweptBox;
 use crate::store::bodies::Bodies;
 use crate::store::course::Course;
-use crate::store::slots::grown;
 use crate::store::swept::{Cells, Sides};
+use crate::{BodyIx, Ix};
 
 impl FreeBodies {
     /// Bodies of the grid with boxes that overlap a swept box, some more than once: see [`Self::has_met`].
-    pub(super) fn search(&mut self, swept_box: &SweptBox, cells: Cells) -> Vec<u32> {
+    pub(super) fn search(&mut self, swept_box: &SweptBox, cells: Cells) -> Vec<BodyIx> {
         let mut near = core::mem::take(&mut self.near);
         near.clear();
         self.met += self.grid.gather(swept_box, cells, &mut near);
@@ -35,22 +35,23 @@ impl FreeBodies {
     }
 
     /// Whether the search with a mark has met a body before; perhaps not, where another search came between.
-    pub(super) fn has_met(&mut self, body: u32, mark: u32) -> bool {
-        core::mem::replace(&mut self.seen[body as usize], mark) == mark
+    pub(super) fn has_met(&mut self, body: BodyIx, mark: u32) -> bool {
+        core::mem::replace(&mut self.seen[body], mark) == mark
     }
 
     /// Bodies of the grid that may be in `bounds` before they look down again, in order.
-    pub(crate) fn overlapping(&self, bodies: &Bodies, bounds: Aabb, near: &mut Vec<u32>) {
+    pub(crate) fn overlapping(&self, bodies: &Bodies, bounds: Aabb, near: &mut Vec<BodyIx>) {
         near.clear();
         if self.in_grid.is_empty() {
             return;
         }
-        let here = |body: u32| {
+        let here = |body: BodyIx| {
             let course = &bodies.get(body).course;
             course.cells.is_some() && course.reached.overlaps(bounds)
         };
         match &self.aloft {
             Some(tree) => tree.query(bounds, |body| {
+                let body = BodyIx::new(body);
                 if here(body) {
                     near.push(body);
                 }
@@ -61,7 +62,7 @@ impl FreeBodies {
     }
 
     /// Bodies of the grid that may be in `bounds` at `time`, in order.
-    pub(crate) fn present(&self, bodies: &Bodies, bounds: Aabb, time: SimTime) -> Vec<u32> {
+    pub(crate) fn present(&self, bodies: &Bodies, bounds: Aabb, time: SimTime) -> Vec<BodyIx> {
         let mut near = Vec::new();
         if self.in_grid.is_empty() {
             return near;
@@ -70,7 +71,7 @@ impl FreeBodies {
             self.frame.point(bounds.min, time),
             self.frame.point(bounds.max, time),
         );
-        let here = |body: u32| {
+        let here = |body: BodyIx| {
             let course = &bodies.get(body).course;
             course.cells.is_some() && course.swept.overlaps(seen)
         };
@@ -78,7 +79,7 @@ impl FreeBodies {
         if cells.count() > self.in_grid.len() as u64 {
             near.extend(self.in_grid.iter().filter(|body| here(**body)));
         } else {
-            let swept_box = SweptBox::new(u32::MAX, Sides::around(seen));
+            let swept_box = SweptBox::new(BodyIx::NONE, Sides::around(seen));
             self.grid.gather(&swept_box, cells, &mut near);
             near.retain(|body| here(*body));
         }
@@ -92,13 +93,13 @@ impl FreeBodies {
         let all = self.in_order();
         let boxes = all
             .iter()
-            .map(|&index| (box_aloft(&bodies.get(index).course), index));
+            .map(|index| (box_aloft(&bodies.get(*index).course), index.number()));
         let mut tree = BoxTree::new();
         let nodes = tree.extend(boxes);
         self.nodes.clear();
         self.nodes.resize(bodies.places(), None);
         for (index, node) in all.into_iter().zip(nodes) {
-            self.nodes[index as usize] = Some(node);
+            self.nodes[index] = Some(node);
         }
         self.aloft = Some(tree);
     }
@@ -112,29 +113,29 @@ impl FreeBodies {
     pub(crate) fn lower(&mut self) {
         if let Some(tree) = self.aloft.take() {
             for index in tree.ids().filter_map(|node| tree.data(node)) {
-                self.nodes[index as usize] = None;
+                self.nodes[BodyIx::new(index)] = None;
             }
         }
     }
 
     /// Keeps the box in the world of a free body in the grid.
-    pub(super) fn lift(&mut self, course: &Course, index: u32) {
+    pub(super) fn lift(&mut self, course: &Course, index: BodyIx) {
         let Some(tree) = &mut self.aloft else {
             return;
         };
         let bounds = box_aloft(course);
-        match grown(&mut self.nodes, index, None) {
+        match self.nodes.grown(index, None) {
             Some(node) => {
                 tree.update(*node, bounds);
             }
-            none => *none = Some(tree.insert(bounds, index)),
+            none => *none = Some(tree.insert(bounds, index.number())),
         }
     }
 
     /// Takes a body out of the grid, and its box out of the tree aloft.
-    pub(crate) fn vanish(&mut self, bodies: &mut Bodies, index: u32) {
+    pub(crate) fn vanish(&mut self, bodies: &mut Bodies, index: BodyIx) {
         self.leave(bodies, index);
-        let node = self.nodes.get_mut(index as usize).and_then(Option::take);
+        let node = self.nodes.get_mut(index).and_then(Option::take);
         if let (Some(tree), Some(node)) = (&mut self.aloft, node) {
             tree.remove(node);
         }

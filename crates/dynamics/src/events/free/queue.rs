@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use carom_math::SimTime;
 
-use crate::{ColliderIx, ImpactIx, Ix};
+use crate::{BodyIx, ColliderIx, ImpactIx, Ix};
 
 /// What happens at an entry's time, if the bodies still move as they did; at equal times in this order, impacts by their slots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -39,7 +39,7 @@ impl What {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Entry {
     pub(crate) time: SimTime,
-    pub(crate) a: u32,
+    pub(crate) a: BodyIx,
     /// Number of body or shape `b`, as `what` says.
     pub(crate) b: u32,
     /// Sum of the two bodies' versions: versions only grow, so that it is equal only if both are.
@@ -48,6 +48,11 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
+    /// Body `b`.
+    pub(super) fn other(&self) -> BodyIx {
+        BodyIx::new(self.b)
+    }
+
     /// Shape `b`.
     pub(super) fn shape(&self) -> ColliderIx {
         ColliderIx::new(self.b)
@@ -259,7 +264,7 @@ mod tests {
         let (time, what) = (SimTime::from_secs(time), What::HORIZON);
         Entry {
             time,
-            a,
+            a: BodyIx::new(a),
             b: a,
             stamp: 0,
             what,
@@ -350,9 +355,9 @@ mod tests {
         }
         let end = SimTime::from_secs(10.0);
         let mut seen = Vec::new();
-        while queue.next(end, |entry| entry.a % 3 != 0).is_some() {
+        while queue.next(end, |entry| entry.a.number() % 3 != 0).is_some() {
             seen.extend(queue.pop().map(|entry| entry.a));
         }
-        assert!(seen.iter().all(|a| a % 3 == 0) && seen.len() == 34);
+        assert!(seen.iter().all(|a| a.number() % 3 == 0) && seen.len() == 34);
     }
 }

@@ -20,7 +20,7 @@ use crate::model::graph::pair_of;
 use crate::model::narrow::{TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
 use crate::motion::first_touch::{first_touch, first_touch_of_parts};
 use crate::store::few::Few;
-use crate::{ColliderIx, PairIx, Two, World};
+use crate::{BodyIx, ColliderIx, PairIx, Two, World};
 
 /// Part of a sub-step after which a contact that opens with t³ has a gap that a search sees, of some 1e-13 of a size.
 const OPENED: f64 = 1.0 / 64.0;
@@ -30,7 +30,7 @@ const BLUR: f64 = 2.0 * f64::EPSILON;
 
 impl World {
     /// The instant from which on two free bodies may meet.
-    pub(super) fn come_near(&mut self, index: u32, other: u32, time: SimTime) {
+    pub(super) fn come_near(&mut self, index: BodyIx, other: BodyIx, time: SimTime) {
         let own = Circle::of(self.bodies.get(index), time);
         let theirs = Circle::of(self.bodies.get(other), time);
         let Some(window) = own.meets(&theirs) else {
@@ -40,13 +40,19 @@ impl World {
         if window.to.is_infinite() && time + window.from > time {
             self.approach(index, other, window, time, Cause::Deflected);
         } else {
-            self.seek(index, other, time, window, Cause::Deflected);
+            self.seek((index, other), time, window, Cause::Deflected);
         }
     }
 
     /// Time of impact of two free bodies from now on, to the end of their window or, where that is not
     /// known or one of them is in the tree, to the nearer horizon.
-    pub(super) fn seek(&mut self, a: u32, b: u32, time: SimTime, window: Window, cause: Cause) {
+    pub(super) fn seek(
+        &mut self,
+        (a, b): Two<BodyIx>,
+        time: SimTime,
+        window: Window,
+        cause: Cause,
+    ) {
         let (a, b) = if self.goes_first(a, b) {
             (a, b)
         } else {
@@ -64,13 +70,19 @@ impl World {
 
     /// Whether `a` is the first body of the pair: by how both began, so that roundings do not depend on the
     /// order in which they came.
-    fn goes_first(&self, a: u32, b: u32) -> bool {
-        let rank = |index: u32| (self.bodies.get(index).rank, index);
+    fn goes_first(&self, a: BodyIx, b: BodyIx) -> bool {
+        let rank = |index: BodyIx| (self.bodies.get(index).rank, index);
         rank(a) < rank(b)
     }
 
     /// Time of impact of a free body and a shape that rests, from now to the free body's horizon.
-    pub(super) fn seek_shape(&mut self, index: u32, at: ColliderIx, time: SimTime, cause: Cause) {
+    pub(super) fn seek_shape(
+        &mut self,
+        index: BodyIx,
+        at: ColliderIx,
+        time: SimTime,
+        cause: Cause,
+    ) {
         let owner = self.bodies.colliders[at].body;
         let body = self.bodies.get(index);
         let (end, mine) = (body.course.ground - time, body.colliders.clone());
@@ -80,7 +92,7 @@ impl World {
     /// Time of impact of these shapes of two bodies within `end` seconds; what is left of a long search is made later.
     fn seek_all(
         &mut self,
-        (a, b): (u32, u32),
+        (a, b): Two<BodyIx>,
         shapes: (Few<ColliderIx>, Few<ColliderIx>),
         time: SimTime,
         end: f64,
@@ -111,7 +123,7 @@ impl World {
     /// Time of impact of two shapes within `length` seconds; whether they meet.
     fn seek_shapes(
         &mut self,
-        (a, b): (u32, u32),
+        (a, b): Two<BodyIx>,
         shapes: Two<ColliderIx>,
         time: SimTime,
         length: f64,
@@ -203,7 +215,7 @@ impl World {
     }
 
     /// A search that found no end leaves two bodies to the engine.
-    fn leave_unresolved(&mut self, ends: (u32, u32), time: SimTime) {
+    fn leave_unresolved(&mut self, ends: Two<BodyIx>, time: SimTime) {
         self.report.unresolved += 1;
         self.land_both(ends, time);
     }
@@ -211,7 +223,7 @@ impl World {
     /// Whether one of two bodies slides over the side of the other that the impact is on: the side that bears it is flush with that.
     fn passes(
         &self,
-        ends: (u32, u32),
+        ends: Two<BodyIx>,
         shapes: Two<ColliderIx>,
         impact: &Impact,
         time: SimTime,
@@ -245,7 +257,7 @@ impl World {
 
     /// Whether two shapes that the caller put where they are overlap by more than rounding, or rest on
     /// each other.
-    fn holds(&self, (a, b): (u32, u32), shapes: Two<ColliderIx>, time: SimTime) -> bool {
+    fn holds(&self, (a, b): Two<BodyIx>, shapes: Two<ColliderIx>, time: SimTime) -> bool {
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let (pose_a, pose_b) = (one.centre_pose(time), two.centre_pose(time));
         let touch = TOUCH * one.reach.min(two.reach);
@@ -264,14 +276,14 @@ impl World {
     }
 
     /// The pair of two shapes that an island in analytic motion has: that of a contact, or of one that is just over.
-    pub(super) fn moving_pair(&self, ends: (u32, u32), shapes: Two<ColliderIx>) -> Option<PairIx> {
+    pub(super) fn moving_pair(&self, ends: Two<BodyIx>, shapes: Two<ColliderIx>) -> Option<PairIx> {
         let index = self.moving_end(ends)?;
         pair_of(&self.bodies, &self.pairs, index, shapes)
     }
 
     /// The first of two bodies that is in an island in analytic motion.
-    pub(super) fn moving_end(&self, (a, b): (u32, u32)) -> Option<u32> {
-        let moves = |index: &u32| self.bodies.get(*index).moves_analytically();
+    pub(super) fn moving_end(&self, (a, b): Two<BodyIx>) -> Option<BodyIx> {
+        let moves = |index: &BodyIx| self.bodies.get(*index).moves_analytically();
         [a, b].into_iter().find(moves)
     }
 

@@ -11,7 +11,7 @@ use crate::impact::{ImpactBody, ImpactContact, resolve};
 use crate::model::narrow::NOISE;
 use crate::store::clock::whole;
 use crate::store::zeno::ZenoSeries;
-use crate::{BodyKind, EventKind, Ix, Mode, PairIx, PairMaterial, World};
+use crate::{BodyIx, BodyKind, EventKind, Ix, Mode, PairIx, PairMaterial, Two, World};
 
 /// What the impacts of one free body may spend in a tick before the solver takes the rest, in losses of
 /// relative speed.
@@ -43,7 +43,7 @@ impl World {
     /// Resolves an impact that was foreseen for the motions as they are.
     pub(super) fn strike_free_body(&mut self, impact: &Foreseen, time: SimTime) {
         let (a, b) = impact.bodies;
-        let is_held = |index: u32| {
+        let is_held = |index: BodyIx| {
             let state = self.bodies.get(index);
             state.is_asleep() || state.is_stepped()
         };
@@ -86,7 +86,7 @@ impl World {
         };
         self.strike_at(impact, time, &before, material);
         // What it leaves squeezed has landed.
-        let is_stepped = |index: &u32| self.bodies.get(*index).is_stepped();
+        let is_stepped = |index: &BodyIx| self.bodies.get(*index).is_stepped();
         if [a, b].iter().any(is_stepped) {
             return;
         }
@@ -110,7 +110,7 @@ impl World {
         }
         let moving = [a, b].into_iter();
         let moving = moving.filter(|index| self.bodies.get(*index).is_dynamic());
-        let moving: ArrayVec<u32, 2> = moving.collect();
+        let moving: ArrayVec<BodyIx, 2> = moving.collect();
         self.rush(&moving, lost, time);
     }
 
@@ -128,7 +128,7 @@ impl World {
     /// Scale of the rounding of an approach, in m/s: the speed of the bodies, or that with which their
     /// Zeno series began.
     pub(super) fn scale(&self, impact: &Foreseen, before: &[ImpactBody; 2]) -> f64 {
-        let of = |index: u32, body: &ImpactBody| {
+        let of = |index: BodyIx, body: &ImpactBody| {
             let state = self.bodies.get(index);
             pace(body, state.reach).max(state.course.series.top())
         };
@@ -186,7 +186,7 @@ impl World {
 
     /// Resolves a shock of several contacts; returns the bodies with a new motion. Free bodies that it leaves squeezed land: no
     /// impulses stop them.
-    pub(super) fn strike_together(&mut self, mut shock: Shock, time: SimTime) -> Vec<u32> {
+    pub(super) fn strike_together(&mut self, mut shock: Shock, time: SimTime) -> Vec<BodyIx> {
         shock.solve(&self.settings, &self.bodies, &mut self.pairs);
         self.work.impact(shock.operations);
         let (events, report) = (&mut self.events, &mut self.report);
@@ -230,7 +230,7 @@ impl World {
 
     /// Says that infinitely many impacts of two bodies have ended, with their energy per kg of reduced
     /// mass, in J/kg.
-    pub(super) fn report_collapse(&mut self, ends: (u32, u32), energy: f64, time: SimTime) {
+    pub(super) fn report_collapse(&mut self, ends: Two<BodyIx>, energy: f64, time: SimTime) {
         tell_collapse(&self.bodies, ends, energy, time, &mut self.events);
     }
 
@@ -282,7 +282,7 @@ impl World {
         self.free.struck = None;
     }
 
-    fn is_driven(&self, (a, b): (u32, u32), time: SimTime) -> bool {
+    fn is_driven(&self, (a, b): Two<BodyIx>, time: SimTime) -> bool {
         [a, b].into_iter().any(|index| {
             let state = self.bodies.get(index);
             state.kind == BodyKind::Kinematic

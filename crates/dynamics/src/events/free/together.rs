@@ -11,7 +11,7 @@ use crate::events::free::Cause;
 use crate::events::shock::Shock;
 use crate::impact::ImpactBody;
 use crate::store::state::BodyState;
-use crate::{Ix, PairIx, World};
+use crate::{BodyIx, Ix, PairIx, World};
 
 /// Instants that differ by less are one, as a fraction of the way to them over the speed: impacts make
 /// differences of roundings larger, by a decade each.
@@ -68,7 +68,7 @@ impl World {
                 };
                 // A pair may have been found twice.
                 let known = |(_, known): &Due| known.colliders == other.colliders;
-                if self.stamp(entry.a, entry.b) == entry.stamp && !struck.iter().any(known) {
+                if self.stamp(entry.a, entry.other()) == entry.stamp && !struck.iter().any(known) {
                     struck.push((entry, other));
                 }
             }
@@ -158,7 +158,7 @@ impl World {
             .collect();
         struck.retain(|(_, impact)| {
             let on_seam = |face: &Foreseen| {
-                let common = |index: u32| {
+                let common = |index: BodyIx| {
                     self.bodies.get(index).inverse_mass > 0.0
                         && (index == face.bodies.0 || index == face.bodies.1)
                 };

@@ -10,9 +10,9 @@ use carom_collision::{TimeOfImpact, shape_distance};
 use carom_geometry::{Circle, Shape};
 use carom_math::SimTime;
 
-use crate::ColliderIx;
 use crate::motion::first_touch::first_touch;
 use crate::store::bodies::Bodies;
+use crate::{BodyIx, ColliderIx, Two};
 
 /// Largest turn that one search for a time of impact goes through, in rad.
 const TURN: f64 = 8.0;
@@ -27,7 +27,7 @@ const RIM: f64 = 1.0 + 1.0 / (1_u64 << 20) as f64;
 /// touches; where that is 0, the search goes up to the second.
 pub(super) fn first_piece(
     bodies: &Bodies,
-    pair: (u32, u32),
+    pair: Two<BodyIx>,
     time: SimTime,
     length: f64,
 ) -> (f64, f64) {
@@ -42,15 +42,15 @@ pub(super) fn first_piece(
 }
 
 /// As much of `length` seconds as the bodies of a pair turn by at most [`TURN`] in.
-fn length_by_turn(bodies: &Bodies, (a, b): (u32, u32), time: SimTime, length: f64) -> f64 {
-    let spin = |index: u32| {
+fn length_by_turn(bodies: &Bodies, (a, b): Two<BodyIx>, time: SimTime, length: f64) -> f64 {
+    let spin = |index: BodyIx| {
         let motion = &bodies.get(index).motion;
         motion.spin_at(time).abs() + motion.angular_acceleration.abs() * length
     };
     if length * (spin(a) + spin(b)) <= TURN {
         return length;
     }
-    let seen = |index: u32| {
+    let seen = |index: BodyIx| {
         if bodies.get(index).turns_in_place(&bodies.colliders) {
             0.0
         } else {
@@ -62,7 +62,7 @@ fn length_by_turn(bodies: &Bodies, (a, b): (u32, u32), time: SimTime, length: f6
 
 /// How long two bodies surely do not touch, at most `length` seconds, whatever those of them turn by that turn by more
 /// than [`TURN`] in it: the circles about these have not met the other one by then.
-fn apart_however_turned(bodies: &Bodies, (a, b): (u32, u32), time: SimTime, length: f64) -> f64 {
+fn apart_however_turned(bodies: &Bodies, (a, b): Two<BodyIx>, time: SimTime, length: f64) -> f64 {
     let (one, two) = (bodies.get(a), bodies.get(b));
     let (of_one, of_two) = (
         shapes_however_turned(bodies, a, time, length),
@@ -91,7 +91,7 @@ fn apart_however_turned(bodies: &Bodies, (a, b): (u32, u32), time: SimTime, leng
 /// The shapes of a body about its centre; the one circle about them, where it turns by more than [`TURN`].
 fn shapes_however_turned(
     bodies: &Bodies,
-    index: u32,
+    index: BodyIx,
     time: SimTime,
     length: f64,
 ) -> Vec<Arc<Shape>> {
