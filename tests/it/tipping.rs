@@ -1,8 +1,8 @@
 //! Bodies that turn about what they stand on: against fine integrations and the textbook.
 
 use carom_dynamics::{BodyDef, BodyId, EventKind, Settings, World};
-use carom_geometry::{Circle, ConvexPolygon, HalfPlane, Shape};
-use carom_math::{Rot, Vec2, trig, vec2};
+use carom_geometry::{Circle, Compound, ConvexPolygon, HalfPlane, Shape};
+use carom_math::{Pose, Rot, Vec2, trig, vec2};
 use carom_tests::run;
 use carom_tests::scenes::surface;
 
@@ -164,4 +164,53 @@ fn what_a_tipping_box_hits_it_hits_at_the_instant() {
         }
     }
     assert!(struck, "{}", world.body(id).expect("there").centre());
+}
+
+/// A convex polygon in triangles that share a corner lands on it and tips as it does in one piece, while closed forms move both.
+#[test]
+fn a_corner_that_parts_share_is_one_corner() {
+    let corners = [
+        vec2(-1.0, -0.5),
+        vec2(0.8, -0.6),
+        vec2(1.2, 0.1),
+        vec2(0.7, 0.6),
+        vec2(-0.9, 0.7),
+    ];
+    let whole = ConvexPolygon::new(corners).expect("a polygon");
+    let aside = vec2(10.0, 0.0);
+    for (angle, spin, friction) in [(0.3, 0.0, 0.6), (-0.5, 1.0, 0.2), (2.0, -1.5, 1.0)] {
+        for first in 0..5 {
+            let fan = |k: usize| [0, k, k + 1].map(|i| corners[(i + first) % 5]);
+            let triangle = |k| Shape::from(ConvexPolygon::new(fan(k)).expect("a triangle"));
+            let parts = Compound::new((1..4).map(|k| (triangle(k), Pose::IDENTITY)));
+            let parts = Shape::from(parts.expect("triangles"));
+            let mut world = on_floor(friction);
+            let mut insert = |shape: Shape, at: Vec2| {
+                let def = BodyDef::dynamic().at(at).turned(angle);
+                let def = def.moving(vec2(0.5, 0.0)).spinning(spin);
+                let surface = surface(0.0, friction);
+                world.insert(def, shape, surface).expect("valid")
+            };
+            let start = vec2(0.0, 1.6);
+            let ids = [
+                insert(whole.clone().into(), start),
+                insert(parts, start + aside),
+            ];
+            let mut steps = 0;
+            for _ in 0..120 {
+                let report = world.step(1.0 / 60.0);
+                assert_eq!(report.unresolved, 0, "first corner {first}");
+                if !report.is_exact() {
+                    break;
+                }
+                let [one, other] = ids.map(|id| world.body(id).expect("it is there"));
+                let off = (other.centre() - one.centre() - aside).length();
+                let turned = (other.angle() - one.angle()).abs();
+                assert!(off + turned < 1e-9, "{off:e} m, {turned:e}, step {steps}");
+                steps += 1;
+            }
+            // It touches after 20 to 25.
+            assert!(steps >= 30, "{steps}");
+        }
+    }
 }

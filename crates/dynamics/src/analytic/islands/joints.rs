@@ -1,7 +1,8 @@
 //! What of two parts touches at a point of contact that turns: a corner or a disc on an edge, a disc on a corner.
 
 use arrayvec::ArrayVec;
-use carom_collision::Hull;
+use carom_collision::{Hull, hulls};
+use carom_geometry::Shape;
 use carom_math::{Pose, Vec2, perp};
 
 use crate::analytic::tipping::{End, Joint};
@@ -14,6 +15,8 @@ const FLUSH: f64 = 1e-9;
 /// A convex part of a body at an instant.
 pub(super) struct Held<'a> {
     pub(super) hull: Hull<'a>,
+    /// The shape that it is a part of.
+    pub(super) shape: &'a Shape,
     pub(super) pose: Pose,
     pub(super) moves: ImpactBody,
 }
@@ -29,6 +32,35 @@ impl Held<'_> {
         let far = |vertex: &Vec2| (*vertex - local).length();
         let all = self.hull.vertices.iter().map(far).enumerate();
         all.min_by(|x, y| x.1.total_cmp(&y.1))
+    }
+
+    /// Corners beside a corner of the shape, on either side of all its parts that have it: what lies between lands later.
+    fn beside(&self, corner: Vec2) -> ArrayVec<Vec2, 2> {
+        let mut found: ArrayVec<Vec2, 2> = ArrayVec::new();
+        for hull in hulls(self.shape) {
+            let (vertices, count) = (hull.vertices, hull.vertices.len());
+            let Some(at) = vertices.iter().position(|vertex| *vertex == corner) else {
+                continue;
+            };
+            let ends = [
+                vertices[(at + 1) % count],
+                vertices[(at + count - 1) % count],
+            ];
+            let turns = |from: Vec2, to: Vec2| (from - corner).perp_dot(to - corner);
+            match &mut found[..] {
+                [first, last] => {
+                    if turns(*first, ends[0]) < 0.0 {
+                        *first = ends[0];
+                    }
+                    if turns(*last, ends[1]) > 0.0 {
+                        *last = ends[1];
+                    }
+                }
+                _ if count > 1 => found.extend(ends),
+                _ => {}
+            }
+        }
+        found
     }
 
     fn edge_line(&self, edge: usize) -> (Vec2, f64, [f64; 2]) {
@@ -137,25 +169,20 @@ fn corner_on(
         return None;
     }
     let (normal, height, ends) = own.edge_line(edge);
-    let local = |vertex: usize| {
-        own.pose
-            .inverse_point(other.pose.point(other.hull.vertices[vertex]))
-    };
-    let along = perp(normal).dot(local(vertex));
+    let local = |corner: Vec2| own.pose.inverse_point(other.pose.point(corner));
+    let tip = other.hull.vertices[vertex];
+    let along = perp(normal).dot(local(tip));
     if along < ends[0] - near || along > ends[1] + near {
         return None;
     }
-    let count = other.hull.vertices.len();
     let mut beside: ArrayVec<Vec2, 2> = ArrayVec::new();
-    for k in [(vertex + 1) % count, (vertex + count - 1) % count] {
-        let corner = other.hull.vertices[k];
+    for corner in other.beside(tip) {
         // What lies flush is a point of the contact itself, or beyond its end.
-        let lies = points > 1 && normal.dot(local(k)) - height <= near;
-        if k != vertex && !lies && !beside.contains(&corner) {
+        let lies = points > 1 && normal.dot(local(corner)) - height <= near;
+        if !lies && !beside.contains(&corner) {
             beside.push(corner);
         }
     }
-    let tip = other.hull.vertices[vertex];
     let room = near * FLUSH + end_room(own.pose.position, other.pose.position);
     let over = goes_over((own, other), (normal, ends), other.pose.point(tip), room);
     let joint = Joint::Line {

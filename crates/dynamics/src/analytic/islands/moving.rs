@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use carom_collision::hulls;
 use carom_math::SimTime;
 
 use super::store::{Closed, Group};
@@ -24,16 +25,32 @@ impl Group {
         })
     }
 
-    /// Parts of a pair in contacts that its mode holds.
+    /// Parts of a pair in contacts that its mode holds, and those that share a corner which it holds: what is beside that corner is
+    /// looked for with it.
     pub(crate) fn held_parts(
         &self,
+        bodies: &Bodies,
         place: PairIx,
         pair: &Pair,
-    ) -> impl Iterator<Item = (u32, u32)> {
-        let touches = self.touches.iter();
-        touches
-            .filter(move |touch| touch.pair == place && touch.moved.mode != ContactMode::Open)
-            .filter_map(|touch| Some(pair.contacts.get(touch.contact)?.parts))
+    ) -> Vec<(u32, u32)> {
+        let mut held = Vec::new();
+        for (k, touch) in self.touches.iter().enumerate() {
+            if touch.pair != place || touch.moved.mode == ContactMode::Open {
+                continue;
+            }
+            let Some(contact) = pair.contacts.get(touch.contact) else {
+                continue;
+            };
+            let (a, b) = contact.parts;
+            held.push((a, b));
+            for (owner, corner) in self.tip.iter().flat_map(|tip| tip.held_corners(k)) {
+                let collider = owner.first(pair.colliders.0, pair.colliders.1).1;
+                let shares = (0..).zip(hulls(&bodies.colliders[collider].solid));
+                let shares = shares.filter(|(_, hull)| hull.vertices.contains(&corner));
+                held.extend(shares.map(|(part, _)| owner.first((a, part), (part, b)).0));
+            }
+        }
+        held
     }
 
     /// Whether its mode lets a contact of two parts of a pair open.

@@ -10,7 +10,7 @@ use crate::analytic::touching::Gathered;
 use crate::law::path::Place;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
-use crate::{BodyIx, Mode};
+use crate::{BodyIx, ColliderIx, Mode};
 
 /// A corner this near to a point of contact is what touches there, as a part of the smaller reach.
 const NEAR: f64 = 1e-6;
@@ -84,20 +84,21 @@ fn joints(
         let pair = pairs.get(place);
         let (a, b) = bodies.both(pair.bodies);
         let parts = pair.contacts.get(number)?.parts;
-        let side = |k: usize, hull, pose| Held {
-            hull,
+        let side = |k: usize, (collider, number): (ColliderIx, u32), pose| Held {
+            hull: bodies.hull(collider, number),
+            shape: &bodies.colliders[collider].solid,
             pose,
             moves: gathered.bodies[k],
         };
         let ends = (
             side(
                 touch.bodies.0,
-                bodies.hull(pair.colliders.0, parts.0),
+                (pair.colliders.0, parts.0),
                 a.centre_pose(time),
             ),
             side(
                 touch.bodies.1,
-                bodies.hull(pair.colliders.1, parts.1),
+                (pair.colliders.1, parts.1),
                 b.centre_pose(time),
             ),
         );

@@ -90,6 +90,18 @@ impl Tip {
         (0..bodies.len()).filter(|place| bodies[*place].inverse_mass > 0.0)
     }
 
+    /// Corners that a contact keeps on an edge, each with the body that has the edge.
+    pub(crate) fn held_corners(&self, contact: usize) -> impl Iterator<Item = (End, Vec2)> + '_ {
+        let hold = &self.equations.holds[contact];
+        let joints = self.equations.contacts[contact].joints.iter().enumerate();
+        joints.filter_map(|(k, joint)| match *joint {
+            Joint::Line {
+                owner, tip, radius, ..
+            } if radius == 0.0 && hold.closed[k] && !hold.over[k] => Some((owner, tip)),
+            _ => None,
+        })
+    }
+
     /// The next stretch of a path that is known no further, while all modes go on.
     pub(crate) fn next(&self, speed: f64) -> Option<Self> {
         if self.ends.is_some() {

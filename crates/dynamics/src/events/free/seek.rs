@@ -302,7 +302,7 @@ impl World {
         let mut held = Vec::new();
         for index in [pair.bodies.0, pair.bodies.1] {
             if let Some(group) = self.closed.group_of(&self.bodies, index) {
-                held.extend(group.held_parts(place, pair));
+                held.extend(group.held_parts(&self.bodies, place, pair));
             }
         }
         held
