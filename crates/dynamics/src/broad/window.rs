@@ -122,6 +122,11 @@ pub(crate) fn box_ahead(state: &BodyState, time: SimTime, seconds: f64) -> Aabb 
     swept(state, &Track::of(&state.motion, time), seconds)
 }
 
+/// [`box_ahead`] of any body, from one instant on.
+pub(crate) fn ways_from(time: SimTime) -> impl Fn(&BodyState, f64) -> Aabb {
+    move |body, seconds| box_ahead(body, time, seconds)
+}
+
 /// Box of a body's bounding circle along a track for `seconds`: both ends, and where it turns.
 pub(crate) fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
     let (from, to) = (track.centre, track.centre_after(seconds));

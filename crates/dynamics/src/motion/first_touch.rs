@@ -9,8 +9,8 @@ use carom_collision::{
     Hull, Impact, ImpactFeature, Motion, TimeOfImpact, earlier, part, part_count, separating_axis,
     time_of_impact_from, time_of_impact_of_parts,
 };
-use carom_geometry::Shape;
-use carom_math::SimTime;
+use carom_geometry::{Aabb, Shape};
+use carom_math::{SimTime, Vec2};
 
 use crate::law::osculating::Osculating;
 use crate::store::state::BodyState;
@@ -39,12 +39,13 @@ fn near(state: &BodyState, time: SimTime) -> Osculating {
     }
 }
 
-/// When two shapes first touch within `length` seconds of `time`. `last`: where they have just struck each other, if they have: a hint.
+/// When two shapes first touch within `length` seconds of `time`. `last`: where they have just struck each other, if they have: a hint;
+/// `way`: the box of the way of a body for some seconds.
 pub(crate) fn first_touch(
     bodies: [&BodyState; 2],
     shapes: [&Shape; 2],
-    time: SimTime,
-    length: f64,
+    (time, length): (SimTime, f64),
+    way: impl Fn(&BodyState, f64) -> Aabb,
     last: Option<ImpactFeature>,
 ) -> TimeOfImpact {
     let [one, two] = bodies;
@@ -55,8 +56,9 @@ pub(crate) fn first_touch(
     }
     let mut first = TimeOfImpact::Clear;
     let mut left = length;
-    for i in 0..part_count(shapes[0]) {
-        for j in 0..part_count(shapes[1]) {
+    let [of_one, of_two] = parts_in_way(bodies, shapes, (time, length), way);
+    for &i in &of_one {
+        for &j in &of_two {
             let parts = [part(shapes[0], i), part(shapes[1], j)];
             let next = first_touch_of_parts(bodies, parts, time, left);
             #[expect(clippy::cast_possible_truncation, reason = "parts of a shape")]
@@ -69,6 +71,36 @@ pub(crate) fn first_touch(
         }
     }
     first
+}
+
+/// Parts of two shapes that may touch within `length` seconds: of a body at rest those in the box of the other one's `way`.
+pub(crate) fn parts_in_way(
+    bodies: [&BodyState; 2],
+    shapes: [&Shape; 2],
+    (time, length): (SimTime, f64),
+    way: impl Fn(&BodyState, f64) -> Aabb,
+) -> [Vec<usize>; 2] {
+    [0, 1].map(|k| {
+        let (body, other) = (bodies[k], bodies[1 - k]);
+        let all = 0..part_count(shapes[k]);
+        if all.len() == 1 || !rests(body) {
+            return all.collect();
+        }
+        let way = way(other, length * (1.0 + BEYOND));
+        let pose = body.centre_pose(time);
+        all.filter(|i| part(shapes[k], *i).aabb(pose).overlaps(way))
+            .collect()
+    })
+}
+
+/// Whether a body stays where it is.
+fn rests(body: &BodyState) -> bool {
+    let motion = &body.motion;
+    let moves = [motion.velocity, motion.acceleration].map(|v| v != Vec2::ZERO);
+    body.flight.is_none()
+        && moves == [false; 2]
+        && motion.spin == 0.0
+        && motion.angular_acceleration == 0.0
 }
 
 /// [`first_touch`] of two convex parts.
@@ -177,5 +209,46 @@ impl Search<'_> {
         let grown = usize::from(parts[0].is_half_plane());
         parts[grown].radius += room;
         time_of_impact_of_parts(&parts[0], &motions[0], &parts[1], &motions[1], span)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::broad::window::ways_from;
+    use crate::{BodyDef, Material, Settings, World};
+    use carom_geometry::{ConvexPolygon, Polygon};
+    use carom_math::vec2;
+
+    #[test]
+    fn parts_beside_the_way_of_a_body_are_not_touched() {
+        let mut hills = vec![vec2(-20.0, -2.0), vec2(20.0, -2.0)];
+        hills.extend((0..=40_i32).map(|k| vec2(f64::from(20 - k), f64::from(k * k % 7) / 7.0)));
+        let hills = Shape::from(Polygon::new(hills).expect("hills"));
+        let plank = Shape::from(ConvexPolygon::rectangle(1.2, 0.3).expect("a plank"));
+        let (mut touched, mut left_out) = (0, 0);
+        for k in 0..60 {
+            let mut world = World::new(Settings::default()).expect("valid");
+            let at = vec2(f64::from(k) / 2.0 - 15.0, 1.3);
+            let moving = vec2(f64::from(k * 5 % 11) - 5.0, -f64::from(k % 4));
+            let def = BodyDef::dynamic().at(at).moving(moving).spinning(3.0);
+            let ids = [(BodyDef::fixed(), &hills), (def, &plank)].map(|(def, shape)| {
+                let made = world.insert(def, shape.clone(), Material::default());
+                made.expect("valid").index
+            });
+            let bodies = ids.map(|index| world.bodies.get(index));
+            let shapes = bodies.map(|body| &*world.bodies.colliders[body.colliders[0]].solid);
+            let (time, length) = (SimTime::ZERO, 0.4);
+            let [near, _] = parts_in_way(bodies, shapes, (time, length), ways_from(time));
+            for i in 0..part_count(shapes[0]) {
+                let parts = [part(shapes[0], i), part(shapes[1], 0)];
+                let found = first_touch_of_parts(bodies, parts, time, length);
+                let clear = matches!(found, TimeOfImpact::Clear);
+                assert!(clear || near.contains(&i), "part {i} from {at} on");
+                touched += u32::from(!clear);
+                left_out += u32::from(!near.contains(&i));
+            }
+        }
+        assert!(touched > 30 && left_out > 600, "{touched}, {left_out}");
     }
 }

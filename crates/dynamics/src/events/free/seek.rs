@@ -13,12 +13,12 @@ use super::circle::Circle;
 use super::foresee::{Cause, both_in_grid};
 use super::strike::approach_speed;
 use super::turning::first_piece;
-use crate::broad::window::Window;
+use crate::broad::window::{Window, ways_from};
 use crate::model::approach::CLOSED;
 use crate::model::ghost::Meeting;
 use crate::model::graph::pair_of;
 use crate::model::narrow::{TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
-use crate::motion::first_touch::{first_touch, first_touch_of_parts};
+use crate::motion::first_touch::{first_touch, first_touch_of_parts, parts_in_way};
 use crate::store::few::Few;
 use crate::{BodyIx, ColliderIx, PairIx, Two, World};
 
@@ -148,7 +148,8 @@ impl World {
         let struck = self.free.struck.filter(|(struck, _)| *struck == shapes);
         let last = struck.map(|(_, last)| last);
         let [first, second] = self.bodies.solids(shapes);
-        let next = first_touch([one, two], [first, second], time, length, last);
+        let (ends, span) = ([one, two], (time, length));
+        let next = first_touch(ends, [first, second], span, ways_from(time), last);
         let (wait, impact) = match next {
             TimeOfImpact::Clear => (f64::INFINITY, None),
             TimeOfImpact::Hit(impact) => (impact.time, Some(impact)),
@@ -338,8 +339,11 @@ impl World {
             !impact.points.iter().any(closes)
         };
         let (mut first, mut again) = (TimeOfImpact::Clear, f64::INFINITY);
-        for i in 0..part_count(&solids[0]) {
-            for j in 0..part_count(&solids[1]) {
+        let shapes_of = [&*solids[0], &*solids[1]];
+        let span = (time, length);
+        let [of_one, of_two] = parts_in_way([one, two], shapes_of, span, ways_from(time));
+        for &i in &of_one {
+            for &j in &of_two {
                 if held
                     .iter()
                     .any(|&(x, y)| (x as usize, y as usize) == (i, j))

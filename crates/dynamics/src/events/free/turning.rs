@@ -10,6 +10,7 @@ use carom_collision::{TimeOfImpact, shape_distance};
 use carom_geometry::{Circle, Shape};
 use carom_math::SimTime;
 
+use crate::broad::window::ways_from;
 use crate::motion::first_touch::first_touch;
 use crate::store::bodies::Bodies;
 use crate::{BodyIx, ColliderIx, Two};
@@ -76,7 +77,8 @@ fn apart_however_turned(bodies: &Bodies, (a, b): Two<BodyIx>, time: SimTime, len
             if shape_distance(first_shape, second_shape, seen).distance <= 0.0 {
                 return 0.0;
             }
-            let next = first_touch([one, two], [first_shape, second_shape], time, first, None);
+            let shapes: [&Shape; 2] = [first_shape, second_shape];
+            let next = first_touch([one, two], shapes, (time, first), ways_from(time), None);
             first = match next {
                 TimeOfImpact::Clear => first,
                 TimeOfImpact::Hit(impact) => first.min(impact.time),
