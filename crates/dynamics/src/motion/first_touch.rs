@@ -10,9 +10,11 @@ use carom_collision::{
     time_of_impact_from, time_of_impact_of_parts,
 };
 use carom_geometry::{Aabb, Shape};
-use carom_math::{SimTime, Vec2};
+use carom_math::SimTime;
 
 use crate::law::osculating::Osculating;
+use crate::store::few::Few;
+use crate::store::moved::moves;
 use crate::store::state::BodyState;
 
 /// A parabola that is nearer to its law than this, as a part of the smaller reach, is the law but for rounding.
@@ -79,11 +81,11 @@ pub(crate) fn parts_in_way(
     shapes: [&Shape; 2],
     (time, length): (SimTime, f64),
     way: impl Fn(&BodyState, f64) -> Aabb,
-) -> [Vec<usize>; 2] {
+) -> [Few<usize>; 2] {
     [0, 1].map(|k| {
         let (body, other) = (bodies[k], bodies[1 - k]);
         let all = 0..part_count(shapes[k]);
-        if all.len() == 1 || !rests(body) {
+        if all.len() == 1 || moves(body) {
             return all.collect();
         }
         let way = way(other, length * (1.0 + BEYOND));
@@ -91,16 +93,6 @@ pub(crate) fn parts_in_way(
         all.filter(|i| part(shapes[k], *i).aabb(pose).overlaps(way))
             .collect()
     })
-}
-
-/// Whether a body stays where it is.
-fn rests(body: &BodyState) -> bool {
-    let motion = &body.motion;
-    let moves = [motion.velocity, motion.acceleration].map(|v| v != Vec2::ZERO);
-    body.flight.is_none()
-        && moves == [false; 2]
-        && motion.spin == 0.0
-        && motion.angular_acceleration == 0.0
 }
 
 /// [`first_touch`] of two convex parts.
