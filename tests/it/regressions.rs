@@ -72,6 +72,7 @@ mod nothing_leaves_a_spinning_ring_through_its_seams;
 mod parts_that_land_together_do_not_turn;
 mod strong_damping_in_a_field_takes_no_longer;
 mod tips_that_meet_do_not_spin;
+mod what_a_kinematic_body_did_is_its_work;
 mod what_an_impact_takes_out_of_an_island_is_not_called_exact;
 mod what_bore_a_heavy_body_is_not_pushed_when_it_has_gone;
 mod what_hangs_on_a_peg_gains_no_speed;

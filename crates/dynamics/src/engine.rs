@@ -75,6 +75,7 @@ impl World {
         stepping.engine.advance();
         self.invite_ahead(stepping, self.clock.h);
         stepping.engine.finish(&self.rules());
+        self.book_drive(stepping);
         self.report.pairs += stepping.engine.looks() - looks;
         self.report.stopped += stepping.engine.stopped_count() - stopped;
         let deepest = stepping.engine.deepest_overlap();

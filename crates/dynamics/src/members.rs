@@ -111,7 +111,7 @@ impl World {
         stepping
             .note_places(self.bodies.history.is_kept() || self.clock.is_within(self.unseen_until));
         self.substep_engine(&mut stepping);
-        self.book_work(&stepping, &forced);
+        self.book_forces(&stepping, &forced);
         self.joins.reached = self.clock.next();
         self.joins.unwritten = true;
         stepping.lay_members(&mut self.bodies, self.clock.next());
@@ -198,8 +198,8 @@ impl World {
         members.into_iter().filter_map(place).collect()
     }
 
-    /// What the caller's forces and kinematic bodies did in the last sub-step.
-    fn book_work(&mut self, stepping: &Stepping, forced: &[(BodyIx, Vec2, f64)]) {
+    /// What the caller's forces did in the last sub-step.
+    fn book_forces(&mut self, stepping: &Stepping, forced: &[(BodyIx, Vec2, f64)]) {
         for &(index, from, turned) in forced {
             if let Some(now) = stepping.state(index) {
                 let state = self.bodies.get(index);
@@ -208,6 +208,10 @@ impl World {
                 self.joins.forced.add(work);
             }
         }
+    }
+
+    /// What kinematic bodies did in the last sub-step.
+    pub(crate) fn book_drive(&mut self, stepping: &Stepping) {
         for &index in &self.joins.drivers {
             let work = stepping.id(index).map(|id| stepping.engine.work_of(id));
             if let Some(Ok(work)) = work {

@@ -353,6 +353,7 @@ impl World {
         if mode == Mode::Stepped {
             self.bodies.touch(index);
             self.bodies.get_mut(index).arrive(mode);
+            self.show_engine(index);
             return self.deflected(index, now);
         }
         self.leave(index, now);

@@ -132,6 +132,7 @@ impl World {
         self.bodies.book.external.add(kinetic + potential);
         if self.settings.mode == Mode::Stepped {
             // It enters the engine with the next sub-step.
+            self.show_engine(id.index);
         } else if sleeps {
             // No flight, and nothing to predict: it only has to be found.
             self.refit(id.index, now, self.clock.h);
@@ -268,7 +269,7 @@ impl World {
         if self.settings.mode == Mode::Stepped {
             if let Some(stepping) = &self.stepping {
                 ledger.friction += stepping.engine.friction_heat();
-                ledger.external += stepping.engine.belt_work();
+                ledger.external += self.joins.driven.value() + stepping.engine.belt_work();
             }
             // One sum for all rows and push-outs: what they did is what the energies tell.
             ledger.scheme += ledger.residual();
