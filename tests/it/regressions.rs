@@ -83,6 +83,7 @@ mod what_is_thrown_within_a_sub_step_keeps_its_contacts;
 mod what_lands_again_begins_a_mode_anew;
 mod what_lands_flat_in_the_end_falls_asleep;
 mod what_leaves_a_turning_group_is_not_called_exact;
+mod what_lies_under_a_valley_is_not_touched;
 mod what_meets_in_months_does_not_meet_now;
 mod what_moves_does_not_fall_asleep;
 mod what_opens_under_a_ceiling_comes_back_to_it;

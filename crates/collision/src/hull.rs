@@ -130,15 +130,35 @@ impl<'a> Hull<'a> {
     /// The box of the shape when its frame is at `pose`.
     #[must_use]
     pub fn aabb(&self, pose: Pose) -> Aabb {
+        self.aabb_of(pose, |_| true)
+    }
+
+    /// The box of what of the shape the outline can be touched at when its frame is at `pose`: of a piece of a concave polygon its
+    /// edges on the outline and corners that stick out; empty if it has none.
+    #[must_use]
+    pub fn outline_aabb(&self, pose: Pose) -> Aabb {
+        let Some(piece) = self.boundary else {
+            return self.aabb(pose);
+        };
+        self.aabb_of(pose, |vertex| {
+            let edges = [self.previous(vertex), vertex];
+            edges.into_iter().any(|edge| piece.is_boundary(edge))
+                || !piece.cones()[vertex].is_empty()
+        })
+    }
+
+    fn aabb_of(&self, pose: Pose, counts: impl Fn(usize) -> bool) -> Aabb {
         if self.is_half_plane() {
             return Aabb::new(Vec2::NEG_INFINITY, Vec2::INFINITY);
         }
         let mut min = Vec2::INFINITY;
         let mut max = Vec2::NEG_INFINITY;
-        for v in self.vertices {
-            let p = pose.point(*v);
-            min = min.min(p);
-            max = max.max(p);
+        for (vertex, v) in self.vertices.iter().enumerate() {
+            if counts(vertex) {
+                let p = pose.point(*v);
+                min = min.min(p);
+                max = max.max(p);
+            }
         }
         Aabb::new(min, max).grown(self.radius)
     }
@@ -275,7 +295,27 @@ pub fn hulls(shape: &Shape) -> impl ExactSizeIterator<Item = Hull<'_>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use carom_geometry::Polygon;
     use carom_math::vec2;
+
+    #[test]
+    fn the_outline_of_a_part_leaves_out_what_is_within() {
+        // A valley: of the part under it only the bottom is outline.
+        let ring = [(-5.0, 0.0), (5.0, 0.0), (5.0, 6.0), (0.0, 1.0), (-5.0, 6.0)];
+        let ground = Polygon::new(ring.map(|(x, y)| vec2(x, y))).expect("a valley");
+        let shape = Shape::from(ground);
+        let heights = hulls(&shape).map(|part| {
+            let (whole, outline) = (part.aabb(Pose::IDENTITY), part.outline_aabb(Pose::IDENTITY));
+            assert!(whole.union(outline) == whole, "{outline:?} in {whole:?}");
+            (whole.max.y, outline.max.y)
+        });
+        let heights: Vec<_> = heights.collect();
+        assert!(heights.contains(&(1.0, 0.0)), "{heights:?}");
+        assert!(heights.iter().filter(|(_, top)| *top == 6.0).count() == 2);
+        let square = ConvexPolygon::square(1.0).expect("a square");
+        let (square, pose) = (square.hull(), Pose::IDENTITY);
+        assert_eq!(square.outline_aabb(pose), square.aabb(pose));
+    }
 
     #[test]
     fn edges_of_an_inset_hull_lie_deeper() {

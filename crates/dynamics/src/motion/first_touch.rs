@@ -75,7 +75,8 @@ pub(crate) fn first_touch(
     first
 }
 
-/// Parts of two shapes that may touch within `length` seconds: of a body at rest those in the box of the other one's `way`.
+/// Parts of two shapes that may touch within `length` seconds: of a body at rest those with some outline in the box of the other
+/// one's `way`.
 pub(crate) fn parts_in_way(
     bodies: [&BodyState; 2],
     shapes: [&Shape; 2],
@@ -90,7 +91,7 @@ pub(crate) fn parts_in_way(
         }
         let way = way(other, length * (1.0 + BEYOND));
         let pose = body.centre_pose(time);
-        all.filter(|i| part(shapes[k], *i).aabb(pose).overlaps(way))
+        all.filter(|i| part(shapes[k], *i).outline_aabb(pose).overlaps(way))
             .collect()
     })
 }
