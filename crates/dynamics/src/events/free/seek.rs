@@ -374,6 +374,11 @@ impl World {
                 }
                 return false;
             }
+            // Where the search gave up there is a larger gap than where it began.
+            TimeOfImpact::Unresolved { safe_until } if safe_until > OPENED * self.clock.h => {
+                self.look_again(ends, shapes, time + safe_until);
+                return false;
+            }
             TimeOfImpact::Unresolved { .. } => {
                 self.leave_unresolved(ends, time);
                 return true;
