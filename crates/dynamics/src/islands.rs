@@ -5,7 +5,7 @@
 //! as long as its mode lasts. What does not qualify is the engine's.
 
 use arrayvec::ArrayVec;
-use carom_math::SimTime;
+use carom_math::{SimTime, Vec2};
 
 use crate::analytic::islands::jam::jam;
 use crate::analytic::islands::mode_budget::changes_motion;
@@ -14,6 +14,7 @@ use crate::analytic::islands::{give_motions, kept};
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, land};
 use crate::analytic::touching::{Gathered, Looks, gather};
 use crate::events::resolve::PairImpact;
+use crate::model::narrow::{TOUCH, look, opening_speed};
 use crate::{BodyIx, BodyKind, ContactMode, IslandIx, Mode, PairIx, World};
 
 impl World {
@@ -89,14 +90,9 @@ impl World {
         }
         let members = self.dissolve(place, time);
         // A corner of a group that turned comes down on an edge that it touched already.
-        if let Some((pair, normal, at)) = landing.filter(|at| self.pairs.find(at.0).is_some()) {
-            let points = ArrayVec::from_iter([at]);
-            self.strike_pair(&PairImpact {
-                time,
-                pair,
-                normal,
-                points,
-            });
+        let landing = landing.filter(|at| self.pairs.find(at.0).is_some());
+        if let Some(impact) = landing.and_then(|landing| self.landing_impact(landing, time)) {
+            self.strike_pair(&impact);
         }
         self.solve_modes_of(&members, time, speed);
         if moves_analytically {
@@ -107,6 +103,57 @@ impl World {
             self.begin_analytic_rest(time);
             self.begin_analytic_motion(time);
         }
+    }
+
+    /// The impact of a corner that comes down at `at`. The corner may belong to another shape of its body, or be beyond the edge's end,
+    /// where its side meets the end instead: the point that two bodies close at is the next one that any of their pairs touches at.
+    fn landing_impact(
+        &mut self,
+        (pair, normal, at): (PairIx, Vec2, Vec2),
+        time: SimTime,
+    ) -> Option<PairImpact> {
+        let ends = self.pairs.get(pair).bodies;
+        let (one, two) = self.bodies.both(ends);
+        let fewest = if one.pairs.len() < two.pairs.len() {
+            one
+        } else {
+            two
+        };
+        let mut next: Option<(f64, PairImpact)> = None;
+        for &place in &fewest.pairs {
+            let known = self.pairs.get_mut(place);
+            if known.bodies != ends && known.bodies != (ends.1, ends.0) {
+                continue;
+            }
+            look(&self.bodies, known, time);
+            let (a, b) = self.bodies.both(known.bodies);
+            let near = TOUCH * a.reach.min(b.reach);
+            let all = known.contacts.iter();
+            let touches =
+                all.flat_map(|contact| contact.points.iter().map(|point| (contact.normal, point)));
+            for (facing, point) in touches.filter(|(_, point)| point.separation <= near) {
+                let point = point.position;
+                let far = (point - at).length();
+                let closes = opening_speed(a, b, time, point, facing) < 0.0;
+                if closes && next.as_ref().is_none_or(|(least, _)| far < *least) {
+                    let is_corner = place == pair && far <= near;
+                    let (normal, at) = if is_corner {
+                        (normal, at)
+                    } else {
+                        (facing, point)
+                    };
+                    let points = ArrayVec::from_iter([at]);
+                    let impact = PairImpact {
+                        time,
+                        pair: place,
+                        normal,
+                        points,
+                    };
+                    next = Some((far, impact));
+                }
+            }
+        }
+        next.map(|(_, impact)| impact)
     }
 
     /// A member of a group has another motion: the group's modes are solved for anew, with the contacts that it has now.

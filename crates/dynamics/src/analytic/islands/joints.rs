@@ -8,6 +8,7 @@ use carom_math::{Pose, Vec2, perp};
 use crate::analytic::tipping::{End, Joint};
 use crate::impact::ImpactBody;
 use crate::model::edges::{disc_room, end_room, flush_edge};
+use crate::store::few::Few;
 
 /// Sine of the angle up to which an edge lies along a contact: far above rounding.
 const FLUSH: f64 = 1e-9;
@@ -17,6 +18,8 @@ pub(super) struct Held<'a> {
     pub(super) hull: Hull<'a>,
     /// The shape that it is a part of.
     pub(super) shape: &'a Shape,
+    /// All shapes of its body that meet the other part's.
+    pub(super) shapes: Few<&'a Shape>,
     pub(super) pose: Pose,
     pub(super) moves: ImpactBody,
 }
@@ -61,6 +64,38 @@ impl Held<'_> {
             }
         }
         found
+    }
+
+    /// The corners that come down on an edge first when the body turns over `tip`, on either side: those beside it, or where the body is
+    /// concave or has several shapes, others that stick out farther. `on_line` tells the place of a corner along the edge, and its height.
+    fn first_down(
+        &self,
+        tip: Vec2,
+        (ends, near): ([f64; 2], f64),
+        on_line: impl Fn(Vec2) -> (f64, f64),
+    ) -> ArrayVec<Vec2, 2> {
+        let mut first = self.beside(tip);
+        let parts = || self.shapes.iter().flat_map(|shape| hulls(shape));
+        if parts().nth(1).is_none() {
+            return first;
+        }
+        let along = on_line(tip).0;
+        let solid = parts().filter(|hull| !hull.normals.is_empty() && hull.radius == 0.0);
+        for corner in solid.flat_map(|hull| hull.vertices) {
+            for (known, side) in first.iter_mut().zip([-1.0, 1.0]) {
+                let lands = along + side * (*corner - tip).length();
+                let turn = side * (*known - tip).perp_dot(*corner - tip);
+                let is_above = |corner: Vec2| on_line(corner).1 >= -near;
+                if turn > 0.0
+                    && (ends[0] - near..=ends[1] + near).contains(&lands)
+                    && is_above(*known)
+                    && is_above(*corner)
+                {
+                    *known = *corner;
+                }
+            }
+        }
+        first
     }
 
     fn edge_line(&self, edge: usize) -> (Vec2, f64, [f64; 2]) {
@@ -175,10 +210,14 @@ fn corner_on(
     if along < ends[0] - near || along > ends[1] + near {
         return None;
     }
-    let mut beside: ArrayVec<Vec2, 2> = ArrayVec::new();
-    for corner in other.beside(tip) {
+    let on_line = |corner: Vec2| {
+        let at = local(corner);
+        (perp(normal).dot(at), normal.dot(at) - height)
+    };
+    let mut beside = ArrayVec::new();
+    for corner in other.first_down(tip, (ends, near), on_line) {
         // What lies flush is a point of the contact itself, or beyond its end.
-        let lies = points > 1 && normal.dot(local(corner)) - height <= near;
+        let lies = points > 1 && on_line(corner).1 <= near;
         if !lies && !beside.contains(&corner) {
             beside.push(corner);
         }

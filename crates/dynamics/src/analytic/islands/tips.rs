@@ -8,8 +8,10 @@ use crate::analytic::modes::NotMine;
 use crate::analytic::tipping::{Contact, Joint, Tip, tip};
 use crate::analytic::touching::Gathered;
 use crate::law::path::Place;
+use crate::model::graph::pair_of;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
+use crate::store::state::BodyState;
 use crate::{BodyIx, ColliderIx, Mode};
 
 /// A corner this near to a point of contact is what touches there, as a part of the smaller reach.
@@ -84,23 +86,23 @@ fn joints(
         let pair = pairs.get(place);
         let (a, b) = bodies.both(pair.bodies);
         let parts = pair.contacts.get(number)?.parts;
-        let side = |k: usize, (collider, number): (ColliderIx, u32), pose| Held {
-            hull: bodies.hull(collider, number),
-            shape: &bodies.colliders[collider].solid,
-            pose,
-            moves: gathered.bodies[k],
+        let side = |k: usize, state: &BodyState, own: ColliderIx, other: ColliderIx, part: u32| {
+            let meets = |at: &&ColliderIx| {
+                **at == own || pair_of(bodies, pairs, state.id.index, (**at, other)).is_some()
+            };
+            let met = state.colliders.iter().filter(meets);
+            Held {
+                hull: bodies.hull(own, part),
+                shape: &bodies.colliders[own].solid,
+                shapes: met.map(|at| &*bodies.colliders[*at].solid).collect(),
+                pose: state.centre_pose(time),
+                moves: gathered.bodies[k],
+            }
         };
+        let (first, second) = pair.colliders;
         let ends = (
-            side(
-                touch.bodies.0,
-                (pair.colliders.0, parts.0),
-                a.centre_pose(time),
-            ),
-            side(
-                touch.bodies.1,
-                (pair.colliders.1, parts.1),
-                b.centre_pose(time),
-            ),
+            side(touch.bodies.0, a, first, second, parts.0),
+            side(touch.bodies.1, b, second, first, parts.1),
         );
         let near = NEAR * a.reach.min(b.reach);
         let joints: Option<ArrayVec<Joint, 2>> = touch

@@ -33,6 +33,9 @@ use faces::Faces;
 /// Slip below this part of the speeds that it is the difference of is none.
 const STILL: f64 = 1e-12;
 
+/// Part of the kinetic energy that the roundings of a landing may add.
+const ROUNDED: f64 = 1e-9;
+
 /// A lasting contact of two bodies: one point, or both ends of a stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Touch {
@@ -195,7 +198,7 @@ pub(crate) fn begin(
 /// far as friction can: the impact without restitution of the whole group.
 ///
 /// The same problem as that of the accelerations, with impulses for forces; it has a solution where
-/// accelerations have none (Painlevé).
+/// accelerations have none (Painlevé). Of several answers that Coulomb friction leaves to a wedged body, one that adds energy is none.
 pub(crate) fn land(bodies: &[ImpactBody], touches: &[Touch]) -> Result<Vec<(Vec2, f64)>, NotMine> {
     let carrier = carrier(bodies);
     let alike =
@@ -210,6 +213,18 @@ pub(crate) fn land(bodies: &[ImpactBody], touches: &[Touch]) -> Result<Vec<(Vec2
     let none = vec![0.0; touches.len()];
     let found = balance(&faces, &tangents(touches, &none))?;
     let moves = faces.moves(bodies, &found, &none);
+    let (mut before, mut after) = (0.0, 0.0);
+    for (body, moved) in bodies.iter().zip(&moves) {
+        before += body
+            .moving(body.velocity - carrier, body.spin)
+            .kinetic_energy();
+        after += body
+            .moving(moved.acceleration, moved.angular_acceleration)
+            .kinetic_energy();
+    }
+    if after > before * (1.0 + ROUNDED) {
+        return Err(NotMine::Unsolved);
+    }
     Ok(moves
         .iter()
         .map(|body| (body.acceleration + carrier, body.angular_acceleration))
