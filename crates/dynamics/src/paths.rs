@@ -8,12 +8,15 @@ use crate::analytic::islands::kept;
 use crate::analytic::islands::store::Group;
 use crate::analytic::islands::tips::path_of;
 use crate::analytic::modes::NotMine;
-use crate::analytic::tipping::Limit;
 use crate::analytic::touching::Gathered;
 use crate::{BodyIx, IslandIx, Mode, World};
 
 /// Sub-steps within which what a landing opens comes back, if it counts as closed. With 1 boxes that rock take 1.2 of the time.
 const BACK: f64 = 4.0;
+
+/// Part of the rest speed above which a corner that comes down so soon was not opened by that landing: the far end of a capsule that falls
+/// flat follows its near end at once. The corner of a body on another one is pulled by up to 1.5 g.
+const SLOW: f64 = 2.0;
 
 impl World {
     /// Moves a group along the path that its contacts leave it; `landed`: a corner came down just now.
@@ -27,14 +30,21 @@ impl World {
         speed: f64,
         landed: bool,
     ) -> Result<(), NotMine> {
+        let gathered = &*gathered.with_corners_once();
         let tip = path_of(
             &self.bodies,
             &self.pairs,
             gathered,
             (time, speed, self.settings.mode),
         )?;
-        let lands = matches!(tip.ends, Some(Limit::Corner { .. }));
-        if landed && lands && tip.after < BACK * self.clock.h && self.settings.mode == Mode::Hybrid
+        let is_slow = || {
+            tip.landing_speed()
+                .is_some_and(|speed| speed < SLOW * gathered.rest)
+        };
+        if landed
+            && self.settings.mode == Mode::Hybrid
+            && tip.after < BACK * self.clock.h
+            && is_slow()
         {
             return Err(NotMine::Returns);
         }

@@ -1,5 +1,7 @@
 //! Contacts at an instant, as plain data for the closed forms of islands.
 
+use std::borrow::Cow;
+
 use arrayvec::ArrayVec;
 use carom_math::{SimTime, Vec2};
 
@@ -73,6 +75,27 @@ impl Gathered {
         self.pairs
             .retain(|_| touches.next().is_some_and(|touch| !touch.points.is_empty()));
         self.touches.retain(|touch| !touch.points.is_empty());
+    }
+
+    /// The same with one touch of a corner that parts of a shape share: rows twice over have no answer of their own where it turns.
+    pub(crate) fn with_corners_once(&self) -> Cow<'_, Self> {
+        let is_corner = |k: usize| self.touches[k].points.len() == 1;
+        let is_same = |j: usize, k: usize| {
+            let (one, other) = (&self.touches[j], &self.touches[k]);
+            self.pairs[j].0 == self.pairs[k].0
+                && (one.points[0], one.normal) == (other.points[0], other.normal)
+        };
+        let again = |k: &usize| is_corner(*k) && (0..*k).any(|j| is_corner(j) && is_same(j, *k));
+        let again: Vec<usize> = (0..self.touches.len()).filter(again).collect();
+        if again.is_empty() {
+            return Cow::Borrowed(self);
+        }
+        let mut once = self.clone();
+        for &k in again.iter().rev() {
+            once.touches.remove(k);
+            once.pairs.remove(k);
+        }
+        Cow::Owned(once)
     }
 
     /// Kinetic energy that the bodies have in the world, in J.

@@ -102,6 +102,22 @@ impl Tip {
         })
     }
 
+    /// How fast the corner comes down that ends the mode, in m/s; `None` if none does.
+    pub(crate) fn landing_speed(&self) -> Option<f64> {
+        let Some(Limit::Corner {
+            contact,
+            normal,
+            at,
+        }) = self.ends
+        else {
+            return None;
+        };
+        let places = self.path.places_after(self.after);
+        let (a, b) = self.equations.contacts[contact].bodies;
+        let opening = places[b].velocity_of(at) - places[a].velocity_of(at);
+        Some(-normal.dot(opening))
+    }
+
     /// The next stretch of a path that is known no further, while all modes go on.
     pub(crate) fn next(&self, speed: f64) -> Option<Self> {
         if self.ends.is_some() {
