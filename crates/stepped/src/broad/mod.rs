@@ -1,7 +1,6 @@
 //! Broad phase: which pieces may touch within the tick.
 
 mod find;
-mod keys;
 mod lists;
 mod pairs;
 mod sweep;
