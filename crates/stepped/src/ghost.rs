@@ -14,7 +14,7 @@ use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use crate::bodies::{Bodies, BodyKind};
 use crate::broad::Pairs;
-use crate::outline::Turned;
+use crate::outline::Outline;
 use crate::pieces::Pieces;
 use crate::rows::Graph;
 
@@ -69,7 +69,7 @@ impl Suspects {
         contact: u32,
     ) {
         for (body, other, piece) in [(a, b, pair[1]), (b, a, pair[0])] {
-            if bodies.moved[body as usize] && has_sides(pieces.turned(piece)) {
+            if bodies.moved[body as usize] && has_sides(pieces.outline(piece)) {
                 let driven = bodies.lines[other as usize].inverse_mass() == 0.0;
                 // The seams of what did not move are those of before.
                 let stays = !bodies.moved[other as usize];
@@ -207,7 +207,7 @@ fn four<S: Simd>(simd: S, column: &[f64; MOST], at: usize) -> f64x4<S> {
 /// piece is.
 #[inline(always)]
 fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
-    let p = pieces.turned(rows.pieces[k]);
+    let p = pieces.outline(rows.pieces[k]);
     if rows.pieces[k] == rows.pieces[o] || !has_sides(p) {
         return false;
     }
@@ -223,14 +223,14 @@ fn is_hidden(rows: &Rows, pieces: &Pieces, k: usize, o: usize) -> bool {
                 let (point, bounds) = (*point + lean, pieces.boxes[q as usize]);
                 q != rows.pieces[k]
                     && bounds.grown(flush).contains_point(point)
-                    && has_sides(pieces.turned(q))
-                    && !pieces.turned(q).is_beyond_side(point, flush)
+                    && has_sides(pieces.outline(q))
+                    && !pieces.outline(q).is_beyond_side(point, flush)
             })
         })
 }
 
 /// Whether other pieces may hide sides of a piece: of discs they hide none.
-const fn has_sides(piece: Turned<'_>) -> bool {
+const fn has_sides(piece: &Outline) -> bool {
     piece.corners() >= 2
 }
 
@@ -273,7 +273,7 @@ impl Rows {
     /// Where a side of the piece slants away from a face of the body it meets that with its near end alone.
     fn end_near(&mut self, pieces: &Pieces, k: usize) {
         if self.slope[k].abs() > self.flush[k] {
-            let (piece, normal) = (pieces.turned(self.pieces[k]), self.normal(k));
+            let (piece, normal) = (pieces.outline(self.pieces[k]), self.normal(k));
             let is_face = |i: usize| piece.normal(i).dot(normal) > 1.0 - LEANS * LEANS;
             if !(0..piece.corners()).any(is_face) {
                 let near = self.points(k)[usize::from(self.slope[k] < 0.0)];

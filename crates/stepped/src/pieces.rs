@@ -8,7 +8,7 @@ use carom_math::{Pose, Vec2};
 
 use crate::bodies::number;
 use crate::error::{check, finite, not_negative};
-use crate::outline::{CORNERS, Outline, Rest, Turned, outline_of};
+use crate::outline::{CORNERS, Outline, outline_of};
 use crate::{EngineError, PairRules, Surface};
 
 /// What a surface is like.
@@ -166,10 +166,9 @@ pub(crate) struct Pieces {
     /// What is asked of a piece most often.
     pub(crate) owners: Vec<Owner>,
     /// Outlines as the bodies have them.
-    of_body: Vec<(Outline, Rest)>,
+    of_body: Vec<Outline>,
     /// Outlines in the base poses of their bodies; no corners: the piece has no outline.
     pub(crate) outlines: Vec<Outline>,
-    pub(crate) rests: Vec<Rest>,
     /// Boxes around what a piece may reach within the tick, each with half a margin.
     pub(crate) boxes: Vec<Aabb>,
     /// Circles around movers, and their velocities.
@@ -203,7 +202,7 @@ impl Pieces {
         let [disc, standing] = [piece, plane].map(|piece| &self.discs[piece as usize]);
         let half_margin = 0.5 * self.margin * self.outlines[piece as usize].extent();
         let far = disc.radius + half_margin + disc.nears(standing, time);
-        self.turned(plane).is_beyond_plane(disc.centre, far)
+        self.outline(plane).is_beyond_plane(disc.centre, far)
     }
 
     /// Numbers the pieces of a body; gives the first number.
@@ -222,8 +221,7 @@ impl Pieces {
                 self.of_body.push(outline);
                 self.owners.push(owner);
                 self.list.push(piece);
-                self.outlines.push(outline.0);
-                self.rests.push(outline.1);
+                self.outlines.push(outline);
                 self.boxes.push(Aabb::EMPTY);
                 self.discs.push(Disc::endless(f64::INFINITY));
             } else {
@@ -267,7 +265,7 @@ impl Pieces {
     fn is_beside(&self, large: u32, small: u32, time: f64) -> bool {
         let [disc, small] = [large, small].map(|piece| &self.discs[piece as usize]);
         let far = small.radius + disc.beyond + disc.nears(small, time);
-        self.turned(large).is_beyond_side(small.centre, far)
+        self.outline(large).is_beyond_side(small.centre, far)
     }
 
     /// Tags of two pieces.
@@ -284,14 +282,10 @@ impl Pieces {
     /// Takes over the pose of a body, and gives the box that the piece is in.
     pub(crate) fn pose(&mut self, number: u32, pose: Pose) -> Aabb {
         let k = number as usize;
-        let of_body = &self.of_body[k];
-        let (outline, rest) = (&mut self.outlines[k], &mut self.rests[k]);
-        outline.pose(&of_body.0, pose);
-        if !outline.is_box() {
-            rest.pose(&of_body.1, pose);
-        }
+        let outline = &mut self.outlines[k];
+        outline.pose(&self.of_body[k], pose);
         if outline.count() > 0.0 {
-            Turned { outline, rest }.aabb()
+            outline.aabb()
         } else {
             let piece = &self.list[k];
             piece.hull().aabb(pose).grown(piece.rounding)
@@ -299,17 +293,13 @@ impl Pieces {
     }
 
     /// The outline of a piece in the base pose of its body.
-    pub(crate) fn turned(&self, piece: u32) -> Turned<'_> {
-        let k = piece as usize;
-        Turned {
-            outline: &self.outlines[k],
-            rest: &self.rests[k],
-        }
+    pub(crate) fn outline(&self, piece: u32) -> &Outline {
+        &self.outlines[piece as usize]
     }
 }
 
 /// The outline of a piece; without corners if it has none: a half-plane, too many corners.
-fn outline(piece: &Piece) -> (Outline, Rest) {
+fn outline(piece: &Piece) -> Outline {
     let hull = piece.hull();
     let (vertices, normals) = if hull.vertices.len() > CORNERS {
         (&[][..], &[][..])
@@ -319,12 +309,11 @@ fn outline(piece: &Piece) -> (Outline, Rest) {
     let cuts = (0..normals.len()).filter(|i| !hull.is_boundary(*i));
     let cuts = cuts.fold(0, |cuts, i| cuts | 1 << i);
     let radius = hull.radius + piece.rounding;
-    let (mut outline, rest) =
-        outline_of(vertices, normals, cuts, [piece.reach, piece.extent, radius]);
+    let mut outline = outline_of(vertices, normals, cuts, [piece.reach, piece.extent, radius]);
     if hull.is_half_plane() {
         outline.leave_no_sides();
     }
-    (outline, rest)
+    outline
 }
 
 impl Piece {

@@ -3,7 +3,7 @@
 use carom_math::Vec2;
 
 use super::Manifold;
-use crate::outline::{Outline, Rest};
+use crate::outline::Outline;
 use crate::pieces::Pieces;
 use crate::rows::{Block, LANES};
 
@@ -11,7 +11,6 @@ use crate::rows::{Block, LANES};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Eight<'a> {
     pub(super) outlines: [[&'a Outline; LANES]; 2],
-    pub(super) rests: [[&'a Rest; LANES]; 2],
     pub(crate) lines: [[u32; LANES]; 2],
     /// What the margin is at least, in m.
     pub(crate) least: [f64; LANES],
@@ -32,7 +31,6 @@ impl<'a> Eight<'a> {
     pub(crate) fn new(pieces: &'a Pieces, lines: [[u32; LANES]; 2]) -> Self {
         Self {
             outlines: [[&pieces.outlines[0]; LANES]; 2],
-            rests: [[&pieces.rests[0]; LANES]; 2],
             lines,
             least: [0.0; LANES],
             side: None,
@@ -45,17 +43,16 @@ impl<'a> Eight<'a> {
 
     /// Puts two pieces into a lane, if both have outlines.
     pub(crate) fn set_pieces(&mut self, pieces: &'a Pieces, lane: usize, pair: [u32; 2]) -> bool {
-        let [a, b] = pair.map(|piece| pieces.turned(piece));
-        let all = a.outline.count().min(b.outline.count()) > 0.0;
+        let [a, b] = pair.map(|piece| pieces.outline(piece));
+        let all = a.count().min(b.count()) > 0.0;
         if all {
-            (self.outlines[0][lane], self.outlines[1][lane]) = (a.outline, b.outline);
-            (self.rests[0][lane], self.rests[1][lane]) = (a.rest, b.rest);
+            (self.outlines[0][lane], self.outlines[1][lane]) = (a, b);
             self.used |= 1 << lane;
             // Boxes have four corners and no cuts.
-            if !(a.outline.is_box() && b.outline.is_box()) {
+            if !(a.is_box() && b.is_box()) {
                 self.boxes = false;
-                self.four &= a.outline.count().max(b.outline.count()) <= 4.0;
-                self.cuts |= a.outline.has_cuts() || b.outline.has_cuts();
+                self.four &= a.count().max(b.count()) <= 4.0;
+                self.cuts |= a.has_cuts() || b.has_cuts();
             }
         }
         all

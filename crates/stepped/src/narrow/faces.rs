@@ -4,7 +4,7 @@
 
 use fearless_simd::{Select, Simd};
 
-use crate::outline::{Outline, Rest};
+use crate::outline::Outline;
 use crate::rows::Wide;
 
 /// Separation of what is no face: less than that of any face.
@@ -41,7 +41,6 @@ pub(super) struct Face<V> {
 pub(super) fn corners<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     simd: S,
     outlines: &[&Outline],
-    rests: &[&Rest],
     [l, m]: [V; 2],
 ) -> Corners<V, N> {
     let zero = V::splat(simd, 0.0);
@@ -61,16 +60,16 @@ pub(super) fn corners<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     if BOXES {
         return found;
     }
-    // Among others boxes have no rest in memory: their first corner is repeated.
+    // Among others boxes have no normals in memory: their first corner is repeated.
     let boxes = l.simd_gt(zero);
     let (mut nx, mut ny) = ([zero; N], [zero; N]);
-    nx[..4].copy_from_slice(&V::columns_of(simd, rests, 0));
-    ny[..4].copy_from_slice(&V::columns_of(simd, rests, 4));
+    nx[..4].copy_from_slice(&V::columns_of(simd, outlines, 16));
+    ny[..4].copy_from_slice(&V::columns_of(simd, outlines, 20));
     if N > 4 {
-        found.x[4..].copy_from_slice(&V::columns_of(simd, rests, 8));
-        found.y[4..].copy_from_slice(&V::columns_of(simd, rests, 12));
-        nx[4..].copy_from_slice(&V::columns_of(simd, rests, 16));
-        ny[4..].copy_from_slice(&V::columns_of(simd, rests, 20));
+        found.x[4..].copy_from_slice(&V::columns_of(simd, outlines, 24));
+        found.y[4..].copy_from_slice(&V::columns_of(simd, outlines, 28));
+        nx[4..].copy_from_slice(&V::columns_of(simd, outlines, 32));
+        ny[4..].copy_from_slice(&V::columns_of(simd, outlines, 36));
     }
     for k in 0..N {
         let its = if k < 4 { k } else { 0 };

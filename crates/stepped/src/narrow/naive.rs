@@ -3,7 +3,7 @@
 use carom_math::{Vec2, perp};
 
 use super::{HYSTERESIS, Manifold, Scene};
-use crate::outline::Turned;
+use crate::outline::Outline;
 
 /// Where B is from A, and what they do until the next tick.
 #[derive(Clone, Copy, Debug, Default)]
@@ -45,7 +45,7 @@ pub(crate) fn contact_on(
     };
     let margin = factor * meeting.margin;
     let limits = [margin + meeting.beside, margin, HYSTERESIS * meeting.margin];
-    let [a, b] = pair.map(|piece| scene.pieces.turned(piece));
+    let [a, b] = pair.map(|piece| scene.pieces.outline(piece));
     let mut found = collide(a, b, going, side, limits)?;
     let gone = found.normal.dot(meeting.gone);
     found.gaps = found.gaps.map(|gap| gap - gone);
@@ -57,8 +57,8 @@ pub(crate) fn contact_on(
 /// A's face is preferred unless B's separates by `hysteresis` more. Beyond a cut they may be by `past` less. All in m. Faces
 /// that separate them against `side`, if that is not zero, are none.
 pub(crate) fn collide(
-    a: Turned<'_>,
-    b: Turned<'_>,
+    a: &Outline,
+    b: &Outline,
     going: Going,
     side: Vec2,
     [limit, past, hysteresis]: [f64; 3],
@@ -96,8 +96,8 @@ pub(crate) fn collide(
 /// of a cut; `None` if that of some edge stays beyond `limit` on the way, of a cut beyond `past_cut`: there `b` meets another
 /// piece.
 fn best_face(
-    a: Turned<'_>,
-    b: Turned<'_>,
+    a: &Outline,
+    b: &Outline,
     [d, way, side]: [Vec2; 3],
     [limit, past_cut]: [f64; 2],
 ) -> Option<(f64, usize, f64)> {
@@ -129,7 +129,7 @@ fn best_face(
 
 /// Clips the edge of `other` that faces edge `i` of `owner` to it. What is apart by no more than `hysteresis` is at one place.
 fn face(
-    [owner, other]: [Turned<'_>; 2],
+    [owner, other]: [&Outline; 2],
     Going { d, way, turns }: Going,
     i: usize,
     hysteresis: f64,
@@ -258,7 +258,7 @@ fn face(
 }
 
 /// The edge with the normal most opposed to `n`, by its two corners; of a disc its one.
-fn facing(outline: Turned<'_>, n: Vec2) -> (usize, usize) {
+fn facing(outline: &Outline, n: Vec2) -> (usize, usize) {
     if outline.corners() == 1 {
         return (0, 0);
     }
@@ -273,7 +273,7 @@ fn facing(outline: Turned<'_>, n: Vec2) -> (usize, usize) {
 }
 
 /// Two corners, or centres of discs; where they coincide there is no normal.
-fn corners(a: Turned<'_>, b: Turned<'_>, d: Vec2, [of_a, of_b]: [Vec2; 2]) -> Option<Manifold> {
+fn corners(a: &Outline, b: &Outline, d: Vec2, [of_a, of_b]: [Vec2; 2]) -> Option<Manifold> {
     let way = of_b + d - of_a;
     let distance = way.length();
     let normal = if distance > 0.0 {

@@ -95,9 +95,8 @@ fn part<S: Simd, V: Wide<S>, const N: usize, const BOXES: bool>(
     let limit = near + (turning + pull) * tick + moved;
     let radii = a_radius + b_radius;
 
-    let (rest_a, rest_b) = (&eight.rests[0][at..end], &eight.rests[1][at..end]);
-    let a = corners::<S, V, N, BOXES>(simd, out_a, rest_a, [a_l, a_m]);
-    let b = corners::<S, V, N, BOXES>(simd, out_b, rest_b, [b_l, b_m]);
+    let a = corners::<S, V, N, BOXES>(simd, out_a, [a_l, a_m]);
+    let b = corners::<S, V, N, BOXES>(simd, out_b, [b_l, b_m]);
     // Boxes have no cuts.
     let cuts = |lengths| (!BOXES && eight.cuts).then(|| (cuts(simd, lengths), near));
     let (side, back) = if let Some(side) = eight.side {

@@ -33,7 +33,7 @@ fn outlines_that_touch_agree_with_hulls() {
             pieces.pose(number, pose);
             pieces
         });
-        let [turned_a, turned_b] = posed.each_ref().map(|pieces| pieces.turned(0));
+        let [turned_a, turned_b] = posed.each_ref().map(|pieces| pieces.outline(0));
         let going = Going {
             d: pose_b.position - pose_a.position,
             ..Going::default()
@@ -93,7 +93,7 @@ fn no_cut_is_touched() {
         let b = posed(&other, pose_b);
         for part in &parts {
             let a = posed(part, pose_a);
-            let (turned, other) = (a.turned(0), b.turned(0));
+            let (turned, other) = (a.outline(0), b.outline(0));
             let going = Going {
                 d: pose_b.position - pose_a.position,
                 ..Going::default()

@@ -75,7 +75,7 @@ fn the_pieces_of_sleepers_are_turned_as_their_bodies() {
     let id = engine.insert(tilted, &[unit_box()]).unwrap();
     let corner = |engine: &Engine| {
         let piece = engine.bodies.records[id.slot as usize].first_piece;
-        engine.pieces.turned(piece).corner(0)
+        engine.pieces.outline(piece).corner(0)
     };
     for _ in 0..120 {
         engine.tick();
