@@ -70,7 +70,7 @@ pub(crate) struct Impacts {
 
 impl Impacts {
     /// Points that bounce in this sub-step or the next begin runs.
-    pub(crate) fn note_arrivals(&mut self, arrived: &[Arrival], graph: &mut Graph) {
+    pub(crate) fn note_arrivals(&mut self, arrived: &[Arrival], graph: &Graph) {
         if self.asked {
             for arrival in arrived {
                 self.meet(arrival.contact, [arrival.speed, arrival.met], graph);
@@ -100,10 +100,15 @@ impl Impacts {
         self.new = new;
     }
 
-    fn meet(&mut self, id: u32, [speed, met]: [f64; 2], graph: &mut Graph) {
-        let contact = graph.contacts[id as usize];
-        if graph.begin_run(id) {
-            let at = id as usize;
+    fn meet(&mut self, id: u32, [speed, met]: [f64; 2], graph: &Graph) {
+        if let Some(run) = self.run_of(id, graph) {
+            // Its other point, or both ways found it.
+            run.speed = run.speed.max(speed);
+            if run.age == 0 {
+                run.met = run.met.min(met);
+            }
+        } else {
+            let (at, contact) = (id as usize, graph.contacts[id as usize]);
             if self.of_contact.len() <= at {
                 self.of_contact.resize(at + 1, 0);
             }
@@ -120,25 +125,21 @@ impl Impacts {
                 normal: Vec2::ZERO,
                 moment: Vec2::ZERO,
             });
-        } else if let Some(run) = self.run_of(id) {
-            // Its other point, or both ways found it.
-            run.speed = run.speed.max(speed);
-            if run.age == 0 {
-                run.met = run.met.min(met);
-            }
         }
     }
 
-    fn run_of(&mut self, id: u32) -> Option<&mut Run> {
+    /// The run of a contact. Numbers are given anew, and may be those of contacts of other pieces.
+    fn run_of(&mut self, id: u32, graph: &Graph) -> Option<&mut Run> {
         let at = *self.of_contact.get(id as usize)?;
         let run = self.runs.get_mut(at as usize);
-        run.filter(|run| run.contact == id)
+        let pieces = graph.contacts[id as usize].pieces;
+        run.filter(|run| run.contact == id && run.pieces == pieces)
     }
 
     /// Adds what the rows did in this sub-step of what will bounce, which clears them.
     pub(crate) fn add_rows(&mut self, arrived: &[Arrival], bodies: &Bodies, graph: &Graph) {
         for arrival in arrived {
-            if let Some(run) = self.run_of(arrival.contact) {
+            if let Some(run) = self.run_of(arrival.contact, graph) {
                 let (block, _, lane) = graph.lane(arrival.contact);
                 run.add(bodies, graph, block.impulses(lane));
             }
@@ -151,14 +152,14 @@ impl Impacts {
         law: &Law,
         arrived: &[Arrival],
         bodies: &Bodies,
-        graph: &mut Graph,
+        graph: &Graph,
         pieces: &Pieces,
     ) {
         if self.runs.is_empty() {
             return;
         }
         for arrival in arrived {
-            if let Some(run) = self.run_of(arrival.contact) {
+            if let Some(run) = self.run_of(arrival.contact, graph) {
                 run.add(bodies, graph, arrival.impulses);
             }
         }
@@ -182,7 +183,6 @@ impl Impacts {
                 of_contact[run.contact as usize] = stay;
                 stay += 1;
             } else {
-                graph.end_run(run.contact, run.pieces);
                 over.push(*run);
             }
             goes_on

@@ -92,8 +92,6 @@ pub(crate) struct Cold {
     pub(crate) touching: u8,
     /// A bit for each lane that pushed when impacts were last looked for.
     pub(crate) pushed: u8,
-    /// A bit for each lane that an impact goes on in.
-    pub(super) runs: u8,
     /// A bit for each lane that was too deep for the sweeps when it was last computed.
     pub(crate) deep: u8,
     /// A bit for each of these that came so, and was not crushed.
@@ -263,7 +261,6 @@ impl Cold {
         shown: [0.0; LANES],
         touching: 0,
         pushed: 0,
-        runs: 0,
         deep: 0,
         put: 0,
         unloaded: 0,
@@ -346,7 +343,6 @@ impl Cold {
         let bit = |mine: u8, theirs: u8| mine & !(1 << to) | (theirs >> from & 1) << to;
         self.touching = bit(self.touching, other.touching);
         self.pushed = bit(self.pushed, other.pushed);
-        self.runs = bit(self.runs, other.runs);
         self.deep = bit(self.deep, other.deep);
         self.put = bit(self.put, other.put);
         self.unloaded = bit(self.unloaded, other.unloaded);

@@ -43,26 +43,6 @@ impl Graph {
         (&mut colour.blocks[k], lane)
     }
 
-    /// Notes that an impact begins in the row of a contact; whether none went on.
-    pub(crate) fn begin_run(&mut self, id: u32) -> bool {
-        let (colour, k, lane) = self.colour_mut(id);
-        let runs = &mut colour.cold[k].runs;
-        let fresh = *runs >> lane & 1 == 0;
-        *runs |= 1 << lane;
-        fresh
-    }
-
-    /// It is over, if the contact is still one of these pieces.
-    pub(crate) fn end_run(&mut self, id: u32, pieces: [u32; 2]) {
-        let (colour, k, lane) = self.colour_mut(id);
-        if let Some(cold) = colour.cold.get_mut(k)
-            && cold.contact[lane] == id
-            && cold.pieces[lane] == pieces
-        {
-            cold.runs &= !(1 << lane);
-        }
-    }
-
     /// Gaps of both points of a contact where its bodies are, in m.
     pub(crate) fn gaps(&self, bodies: &Bodies, id: u32) -> [f64; 2] {
         let (block, cold, lane) = self.lane(id);
