@@ -25,9 +25,6 @@ pub(crate) const ASLEEP: usize = HARD + COLOURS;
 /// boxes need 6 to 10 colours.
 const GROUND: u64 = 12;
 
-/// Lists of contacts are walked if fewer than one of so many bodies moved.
-const FEW: usize = 16;
-
 /// No contact.
 const END: u32 = u32::MAX;
 
@@ -115,37 +112,23 @@ impl Graph {
 
     /// Blocks that have contacts of moved bodies, colour by colour.
     pub(crate) fn touched(&self, bodies: &Bodies) -> Vec<Touched> {
-        let colours = &self.colours[..self.awake_end()];
-        let mut blocks: Vec<(usize, usize)> = Vec::new();
-        let moved = bodies.moved.iter().filter(|moved| **moved);
-        if FEW * moved.count() > bodies.moved.len() {
-            let all = |(c, colour): (usize, &Colour)| (0..colour.blocks.len()).map(move |k| (c, k));
-            blocks.extend(colours.iter().enumerate().flat_map(all));
-        } else {
-            for line in (2..bodies.lines.len()).filter(|line| bodies.moved[*line]) {
-                for (id, _) in self.of_body(bodies, bodies.slot_of[line]) {
-                    let contact = &self.contacts[id as usize];
-                    if !contact.sleeps() {
-                        blocks.push((contact.colour as usize, contact.place().0));
-                    }
+        let mut touched = Vec::new();
+        for (colour, number) in self.colours[..self.awake_end()].iter().zip(0..) {
+            for (Block { a, b, .. }, block) in colour.blocks.iter().zip(0..) {
+                let moved = |line: u32| bodies.moved[line as usize];
+                let lanes = a.iter().zip(b).zip(0..).fold(0, |lanes, ((a, b), lane)| {
+                    lanes | u8::from(moved(*a) | moved(*b)) << lane
+                });
+                if lanes != 0 {
+                    touched.push(Touched {
+                        colour: number,
+                        block,
+                        lanes,
+                    });
                 }
             }
-            blocks.sort_unstable();
-            blocks.dedup();
         }
-        let with_lanes = |(colour, block): (usize, usize)| {
-            let Block { a, b, .. } = &colours[colour].blocks[block];
-            let moved = |line: u32| bodies.moved[line as usize];
-            let lanes = a.iter().zip(b).zip(0..).fold(0, |lanes, ((a, b), lane)| {
-                lanes | u8::from(moved(*a) | moved(*b)) << lane
-            });
-            (lanes != 0).then_some(Touched {
-                colour,
-                block,
-                lanes,
-            })
-        };
-        blocks.into_iter().filter_map(with_lanes).collect()
+        touched
     }
 
     /// The colours of what is awake, and the bodies that may have ghosts.
