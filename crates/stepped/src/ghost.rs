@@ -13,7 +13,6 @@ use carom_math::{Vec2, perp, vec2};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, dispatch, f64x4};
 
 use crate::bodies::{Bodies, BodyKind};
-use crate::broad::Pairs;
 use crate::outline::Outline;
 use crate::pieces::Pieces;
 use crate::rows::Graph;
@@ -120,13 +119,7 @@ struct Rows {
 }
 
 /// Hides rows of moved bodies until they are computed anew.
-pub(crate) fn hide(
-    level: Level,
-    graph: &mut Graph,
-    bodies: &mut Bodies,
-    pieces: &Pieces,
-    known: &Pairs,
-) {
+pub(crate) fn hide(level: Level, graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
     let mut ids = Vec::new();
     let mut rows = Rows::default();
     let mut ghosts = Vec::new();
@@ -137,20 +130,11 @@ pub(crate) fn hide(
         if record.kind != BodyKind::Dynamic {
             continue;
         }
-        let its = record.pieces();
         ids.clear();
-        let all = its.clone().all(|piece| {
-            let contacts = known.contacts(piece);
-            ids.extend_from_slice(contacts.unwrap_or_default());
-            contacts.is_some()
-        });
-        if !all {
-            ids.clear();
-            let of_body = graph.of_body(bodies, bodies.slot_of[line]);
-            ids.extend(of_body.map(|(id, _)| id).take(MOST + 1));
-        }
+        let of_body = graph.of_body(bodies, bodies.slot_of[line]);
+        ids.extend(of_body.map(|(id, _)| id).take(MOST + 1));
         if (2..=MOST).contains(&ids.len()) {
-            rows.fill(graph, pieces, &ids, &its);
+            rows.fill(graph, pieces, &ids, &record.pieces());
             for &(_, contact) in asked {
                 let place = rows.contacts[..rows.len]
                     .iter()

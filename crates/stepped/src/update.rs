@@ -352,7 +352,7 @@ pub(crate) fn create(
         let id = graph.insert(bodies, ends, pair, how, surface);
         let [first, second] = graph.gaps(bodies, id);
         least = least.min(first).min(second);
-        known.insert(pair, id);
+        known.insert(pair);
         if let Some(side) = face {
             let (block, cold, lane) = graph.lane(id);
             if !cold.is_deep(lane) {

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 /// Partners in a list. Boxes in a pile have six, and rarely more than eight.
 const ROOM: usize = 14;
 
-/// No piece, or no contact.
+/// No piece.
 const NONE: u32 = u32::MAX;
 
-/// Partners of each piece with their contacts, in lists of both pieces: movers are asked about others one after the other,
+/// Partners of each piece, in lists of both pieces: movers are asked about others one after the other,
 /// and have theirs at hand. What has many (a floor) is in the lists of the many.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
@@ -17,12 +17,11 @@ pub(crate) struct Pairs {
     rest: BTreeSet<[u32; 2]>,
 }
 
-/// Two cache lines: pieces are compared all at once.
+/// A cache line: pieces are compared all at once.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 struct Partners {
-    pieces: [u32; 16],
-    contacts: [u32; ROOM],
+    pieces: [u32; ROOM],
     len: u32,
     /// Partners that are not in the list.
     missing: u32,
@@ -30,8 +29,7 @@ struct Partners {
 
 impl Partners {
     const NONE: Self = Self {
-        pieces: [NONE; 16],
-        contacts: [NONE; ROOM],
+        pieces: [NONE; ROOM],
         len: 0,
         missing: 0,
     };
@@ -50,11 +48,11 @@ impl Partners {
     }
 
     /// Whether there was room.
-    fn insert(&mut self, piece: u32, contact: u32) -> bool {
+    fn insert(&mut self, piece: u32) -> bool {
         let at = self.len as usize;
         let room = at < ROOM;
         if room {
-            (self.pieces[at], self.contacts[at]) = (piece, contact);
+            self.pieces[at] = piece;
             self.len += 1;
         } else {
             self.missing += 1;
@@ -68,7 +66,7 @@ impl Partners {
         if let Some(at) = found {
             self.len -= 1;
             let last = self.len as usize;
-            (self.pieces[at], self.contacts[at]) = (self.pieces[last], self.contacts[last]);
+            self.pieces[at] = self.pieces[last];
             self.pieces[last] = NONE;
         } else {
             self.missing -= 1;
@@ -94,23 +92,14 @@ impl Pairs {
         })
     }
 
-    /// Contacts of a piece, if its list has them all.
-    pub(crate) fn contacts(&self, piece: u32) -> Option<&[u32]> {
-        match self.lists.get(piece as usize) {
-            Some(list) if list.missing > 0 => None,
-            Some(list) => Some(&list.contacts[..list.len as usize]),
-            None => Some(&[]),
-        }
-    }
-
-    /// A pair without a contact gets this one.
-    pub(crate) fn insert(&mut self, [a, b]: [u32; 2], contact: u32) {
+    /// A pair without a contact gets one.
+    pub(crate) fn insert(&mut self, [a, b]: [u32; 2]) {
         let len = a.max(b) as usize + 1;
         if self.lists.len() < len {
             self.lists.resize(len, Partners::NONE);
         }
-        let in_a = self.lists[a as usize].insert(b, contact);
-        let in_b = self.lists[b as usize].insert(a, contact);
+        let in_a = self.lists[a as usize].insert(b);
+        let in_b = self.lists[b as usize].insert(a);
         if !in_a && !in_b {
             self.rest.insert(in_order([a, b]));
         }
@@ -132,13 +121,11 @@ fn in_order([a, b]: [u32; 2]) -> [u32; 2] {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
-
     use super::*;
 
     #[test]
-    fn lists_agree_with_a_map() {
-        let (mut pairs, mut map) = (Pairs::default(), BTreeMap::new());
+    fn lists_agree_with_a_set() {
+        let (mut pairs, mut set) = (Pairs::default(), BTreeSet::new());
         let mut random = 7u32;
         let mut full = 0;
         for step in 0..40_000 {
@@ -150,29 +137,20 @@ mod tests {
             if a == b {
                 continue;
             }
-            match (inserts, map.contains_key(&pair)) {
+            match (inserts, set.contains(&pair)) {
                 (true, false) => {
-                    pairs.insert(pair, step);
-                    map.insert(pair, step);
+                    pairs.insert(pair);
+                    set.insert(pair);
                 }
                 (false, true) => {
                     pairs.remove(pair);
-                    map.remove(&pair);
+                    set.remove(&pair);
                 }
                 _ => {}
             }
-            full += usize::from(pairs.contacts(a).is_none());
+            full += usize::from(!pairs.rest.is_empty());
             let probe = [random >> 10 & 31, random >> 5 & 31];
-            let key = in_order(probe);
-            assert_eq!(pairs.contains(probe), map.contains_key(&key));
-            if let Some(contacts) = pairs.contacts(probe[0]) {
-                let mut contacts = contacts.to_vec();
-                contacts.sort_unstable();
-                let of_probe = map.iter().filter(|(pair, _)| pair.contains(&probe[0]));
-                let mut all: Vec<_> = of_probe.map(|(_, contact)| *contact).collect();
-                all.sort_unstable();
-                assert_eq!(contacts, all);
-            }
+            assert_eq!(pairs.contains(probe), set.contains(&in_order(probe)));
         }
         assert!(full > 1000, "{full}");
     }
@@ -181,7 +159,7 @@ mod tests {
     fn a_piece_without_contacts_is_in_no_full_list() {
         let mut pairs = Pairs::default();
         for other in 1..40 {
-            pairs.insert([0, other], other);
+            pairs.insert([0, other]);
         }
         assert!(pairs.contains([0, 39]) && pairs.contains([39, 0]));
         assert!(!pairs.contains([0, 40]) && !pairs.contains([40, 0]));
