@@ -350,7 +350,7 @@ impl Engine {
             self.part(id);
         }
         self.parted = parted;
-        hide(self.level, &mut self.graph, &mut self.bodies, &self.pieces);
+        hide(&mut self.graph, &mut self.bodies, &self.pieces);
         self.bodies.moved.fill(false);
         self.bodies.updates += 1;
     }
