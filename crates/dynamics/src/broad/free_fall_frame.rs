@@ -78,11 +78,6 @@ impl Track {
 }
 
 impl Frame {
-    /// In m/s².
-    pub(crate) const fn acceleration(&self) -> Vec2 {
-        self.acceleration
-    }
-
     /// A frame that falls by `acceleration` from rest at the start of time.
     pub(crate) fn falling(acceleration: Vec2) -> Self {
         Self {

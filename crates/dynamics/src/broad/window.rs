@@ -23,16 +23,6 @@ pub(crate) struct Window {
     pub(crate) to: f64,
 }
 
-impl Window {
-    /// The same where its end is not known.
-    pub(crate) const fn until_its_horizon(self) -> Self {
-        Self {
-            to: f64::INFINITY,
-            ..self
-        }
-    }
-}
-
 /// When two circles overlap with centres `d` apart (m), which changes by `v` (m/s) and `a`
 /// (m/s²); `reach` is the sum of their radii (m). `None`: never.
 ///
@@ -55,8 +45,7 @@ pub(crate) fn of_circles(d: Vec2, v: Vec2, a: Vec2, reach: f64) -> Option<Window
 }
 
 /// [`of_circles`] without relative acceleration.
-#[inline]
-pub(crate) fn of_even_circles(d: Vec2, v: Vec2, reach: f64) -> Option<Window> {
+fn of_even_circles(d: Vec2, v: Vec2, reach: f64) -> Option<Window> {
     let reach = reach * ROOM;
     let outside = d.length_squared() - reach * reach;
     let (closing, speed) = (-d.dot(v), v.length_squared());

@@ -2,6 +2,7 @@
 
 use carom_math::SimTime;
 
+use super::circle::Circle;
 use super::drift;
 use super::foreseen::is_stale;
 use super::queue::{Entry, What};
@@ -171,13 +172,13 @@ impl World {
                 near = self.free.in_order();
             }
         }
-        let look = self.free.looks(&self.bodies, index, time);
+        let circle = Circle::of(self.bodies.get(index), time);
         let mark = self.free.begin_to_meet(self.bodies.places());
         for &other in &near {
             if other == index || Some(other) == but || self.free.has_met(other, mark) {
                 continue;
             }
-            let Some(window) = self.free.window(&self.bodies, &look, other, time) else {
+            let Some(window) = circle.meets(&Circle::of(self.bodies.get(other), time)) else {
                 continue;
             };
             self.approach(index, other, window, time, cause);

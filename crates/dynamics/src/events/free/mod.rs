@@ -34,7 +34,6 @@ use crate::store::slots::{List, Slots};
 use crate::store::state::BodyState;
 use crate::{BodyIx, ColliderIx, ImpactIx, Two};
 use aside::Aside;
-use circle::Registered;
 pub(crate) use foresee::Cause;
 pub(crate) use foreseen::Foreseen;
 
@@ -77,8 +76,6 @@ pub(crate) struct FreeBodies {
     nodes: List<BodyIx, Option<NodeId>>,
     /// Bodies in the grid.
     in_grid: BTreeSet<BodyIx>,
-    /// Circles of the grid's free bodies, by body.
-    circles: List<BodyIx, Registered>,
     /// Until when they have looked round for each other, by body.
     horizons: List<BodyIx, SimTime>,
     queue: Queue,
@@ -115,7 +112,6 @@ impl FreeBodies {
 
     /// Makes room for so many more.
     pub(crate) fn reserve(&mut self, more: usize) {
-        self.circles.reserve_exact(more);
         self.horizons.reserve_exact(more);
         self.seen.reserve_exact(more);
     }
@@ -162,8 +158,6 @@ impl FreeBodies {
                 self.in_grid.insert(index);
             }
         }
-        let circle = Registered::of(bodies.get(index), &self.frame);
-        *self.circles.grown(index, Registered::default()) = circle;
         *self.horizons.grown(index, SimTime::ZERO) = horizon;
         true
     }
