@@ -51,37 +51,6 @@ pub(super) fn micro_bounce(
     Some((wait, next))
 }
 
-/// Whether two bodies part from an impact without loss, at `speed`, so fast that nothing that presses them together makes
-/// a low bounce of it: they need no [`micro_bounce`].
-///
-/// With w the faster spin, and R the reach of what turns, on a face (see [`gap_acceleration`])
-/// ```text
-/// |g″| ≤ |a_b − a_a| + 2 w (|v_b − v_a| + w R) + 2 w² R
-/// ```
-pub(super) fn bounces_high(bodies: &Bodies, impact: &Foreseen, time: SimTime, speed: f64) -> bool {
-    if impact.points.len() > 1 || impact.face().is_none() {
-        return false;
-    }
-    let (one, two) = bodies.both(impact.bodies);
-    let (a, b) = (&one.motion, &two.motion);
-    if a.angular_acceleration != 0.0 || b.angular_acceleration != 0.0 {
-        return false;
-    }
-    let turning = |state: &BodyState| {
-        if state.motion.spin == 0.0 {
-            0.0
-        } else {
-            state.reach
-        }
-    };
-    let far = turning(one) + turning(two);
-    let w = a.spin.abs().max(b.spin.abs());
-    let slip = (b.velocity_at(time) - a.velocity_at(time)).length() + w * far;
-    let press = (b.acceleration - a.acceleration).length() + 2.0 * w * (slip + w * far);
-    // Twice what a low bounce may have: the two speeds differ by rounding.
-    speed * speed > 4.0 * press * FLAT * one.reach.min(two.reach)
-}
-
 /// How fast two bodies are pressed together where they touch, in m/s²; negative: pulled apart.
 pub(super) fn press(bodies: &Bodies, impact: &Foreseen, time: SimTime) -> f64 {
     let feature = |index: BodyIx, at: ColliderIx, number: u32| {

@@ -97,12 +97,7 @@ impl World {
             }
             self.begins_to_last(impact, time);
         } else {
-            let comes_back = if keeps {
-                !low::bounces_high(&self.bodies, impact, time, speed)
-            } else {
-                press > 0.0
-            };
-            if comes_back {
+            if keeps || press > 0.0 {
                 self.free.micro_bounce = low::micro_bounce(&self.bodies, impact, time);
             }
             self.deflect_both(impact, time);
