@@ -13,9 +13,6 @@ use crate::store::uncommon::Lag;
 /// Places that differ by less, as a part of the reach and the way, are one but for rounding.
 const SAME: f64 = 1e-12;
 
-/// Motions computed before these are written.
-const AT_ONCE: usize = 64;
-
 impl Stepping {
     /// Notes all poses before a sub-step within which a pose may be read, and forgets them before any other.
     pub(crate) fn note_places(&mut self, asked: bool) {
@@ -33,26 +30,8 @@ impl Stepping {
     /// Motions of the last sub-step for all that moved in it.
     pub(crate) fn write_all(&self, bodies: &mut Bodies, clock: &Clock) {
         let span = (clock.last(), clock.h);
-        if self.asked {
-            for state in self.engine.awake() {
-                self.write_one(bodies, &state, span);
-            }
-            return;
-        }
-        // Motions of some, then where they go: so that many bodies are on their way from memory at once.
-        let mut states = self.engine.awake();
-        let mut motions = Vec::with_capacity(AT_ONCE);
-        loop {
-            let some = states.by_ref().take(AT_ONCE);
-            motions.extend(some.map(|state| (place(&state), Ending::of(&state, span))));
-            if motions.is_empty() {
-                return;
-            }
-            for (index, ending) in motions.drain(..) {
-                if !bodies.get(index).is_guest {
-                    ending.write(bodies, index);
-                }
-            }
+        for state in self.engine.awake() {
+            self.write_one(bodies, &state, span);
         }
     }
 
