@@ -28,7 +28,7 @@ pub(crate) fn pair_of(
 ) -> Option<PairIx> {
     let mut places = bodies.get(index).pairs.iter().copied();
     places.find(|place| {
-        let known = pairs.shapes(*place);
+        let known = pairs.get(*place).colliders;
         known == (first, second) || known == (second, first)
     })
 }

@@ -5,7 +5,7 @@ use carom_collision::FeatureId;
 use carom_math::{SimTime, Vec2};
 
 use super::clock::whole;
-use super::slots::{List, Slots};
+use super::slots::Slots;
 use crate::{BodyIx, ColliderIx, ContactMode, PairIx, PairMaterial, Two};
 
 /// Two colliders of different bodies with overlapping boxes; the lower body comes first.
@@ -109,17 +109,13 @@ pub(crate) struct PairPoint {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
     list: Slots<PairIx, Pair>,
-    /// By place: shapes of pairs, to be read without the rest.
-    shapes: List<PairIx, Two<ColliderIx>>,
     /// Places of pairs that have not been looked at yet.
     pub(crate) fresh: Vec<PairIx>,
 }
 
 impl Pairs {
     pub(crate) fn insert(&mut self, pair: Pair) -> PairIx {
-        let shapes = pair.colliders;
         let place = self.list.insert(pair);
-        *self.shapes.grown(place, shapes) = shapes;
         self.fresh.push(place);
         place
     }
@@ -145,14 +141,9 @@ impl Pairs {
         self.list.get_mut(place).expect("a listed pair is there")
     }
 
-    /// What a pair is of, without the rest of it.
-    pub(crate) fn shapes(&self, place: PairIx) -> Two<ColliderIx> {
-        self.shapes[place]
-    }
-
     /// The other shape of a pair that this shape is in.
     pub(crate) fn partner(&self, place: PairIx, shape: ColliderIx) -> Option<ColliderIx> {
-        match self.shapes(place) {
+        match self.get(place).colliders {
             (one, other) | (other, one) if one == shape => Some(other),
             _ => None,
         }

@@ -81,7 +81,7 @@ impl World {
         let Some(place) = self.pair_of(impact) else {
             return;
         };
-        let normal = if self.pairs.shapes(place) == impact.colliders {
+        let normal = if self.pairs.get(place).colliders == impact.colliders {
             impact.normal
         } else {
             -impact.normal
@@ -124,7 +124,10 @@ impl World {
 
     /// Forgets the pairs of a body that its boxes have left: a free body's reach farther.
     fn part_far(&mut self, index: BodyIx, time: SimTime) {
-        let keeps = |place: &PairIx| self.broad.keeps(&self.bodies, self.pairs.shapes(*place));
+        let keeps = |place: &PairIx| {
+            self.broad
+                .keeps(&self.bodies, self.pairs.get(*place).colliders)
+        };
         let pairs = self.bodies.get(index).pairs.iter();
         let far: Vec<PairIx> = pairs.filter(|place| !keeps(place)).copied().collect();
         for place in far {

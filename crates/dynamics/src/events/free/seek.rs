@@ -313,7 +313,9 @@ impl World {
     }
 
     fn solids_of(&self, place: PairIx) -> [Arc<Shape>; 2] {
-        self.bodies.solids(self.pairs.shapes(place)).map(Arc::clone)
+        self.bodies
+            .solids(self.pairs.get(place).colliders)
+            .map(Arc::clone)
     }
 
     /// Parts of a pair in contacts that change with the mode of an island alone.
