@@ -71,7 +71,7 @@ let png = picture.to_png();                                          // or pictu
 //! |---|---|
 //! | `render` | the module `render`: PNG, APNG, SVG, Y4M and charts, without a screen |
 //! | `scenes` | the module `scenes`: scene files and the built-in scenes; implies `render` |
-//! | `parallel` | [`Settings::threads`] may be above 1; no method shares its work among threads yet |
+//! | `parallel` | without effect: no method shares its work among threads yet |
 //! | `mint` | vectors from and to those of other libraries |
 //! | `serde` | shapes, poses, materials and settings can be written and read; what is read is checked by the same constructors |
 //!

@@ -19,12 +19,12 @@ impl World {
     /// [`StepReport::advanced`] below `dt`, and a step of the rest goes on with the bits of one long step. Forces end where
     /// a step stops.
     pub fn step(&mut self, dt: f64) -> StepReport {
-        self.threads.clone().run(|| self.run(dt, false))
+        self.run(dt, false)
     }
 
     /// Goes on until something happens (see [`World::events`]), at most `max` seconds.
     pub fn step_to_next_event(&mut self, max: f64) -> StepReport {
-        self.threads.clone().run(|| self.run(max, true))
+        self.run(max, true)
     }
 
     fn run(&mut self, dt: f64, stop_at_event: bool) -> StepReport {

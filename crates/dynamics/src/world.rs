@@ -8,7 +8,6 @@ use carom_math::SimTime;
 use crate::analytic::islands::store::Closed;
 use crate::broad::tree::Broad;
 use crate::events::free::FreeBodies;
-use crate::stepping::threads::Threads;
 use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
@@ -65,5 +64,4 @@ pub struct World {
     pub(crate) stepping: Option<Box<Stepping>>,
     /// Bodies that it moves in [`Mode::Hybrid`] and [`Mode::Exact`].
     pub(crate) joins: Joins,
-    pub(crate) threads: Threads,
 }

@@ -7,7 +7,6 @@ use carom_geometry::Shape;
 use carom_math::Vec2;
 
 use super::world::check_shapes;
-use crate::stepping::threads::Threads;
 use crate::store::mass::{mass_of, reach_of};
 use crate::store::state::BodyState;
 use crate::values::error::{check_finite, check_vec2};
@@ -170,9 +169,6 @@ impl World {
         let fields = self.settings.fixed_in(&settings);
         if !fields.is_empty() {
             return Err(SettingsError::Fixed { fields });
-        }
-        if settings.threads != self.settings.threads {
-            self.threads = Threads::new(settings.threads)?;
         }
         let old = core::mem::replace(&mut self.settings, settings);
         self.events.set_capacity(settings.events);

@@ -9,7 +9,6 @@ use carom_math::{Pose, SimTime, StateHash, Sum, Vec2, cross};
 use crate::analytic::islands::store::Closed;
 use crate::broad::tree::Broad;
 use crate::events::free::FreeBodies;
-use crate::stepping::threads::Threads;
 use crate::stepping::{Joins, Stepping};
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
@@ -33,7 +32,6 @@ impl World {
     /// If a setting is not finite or out of its range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         settings.check()?;
-        let threads = Threads::new(settings.threads)?;
         let h = settings.h();
         Ok(Self {
             clock: Clock::new(h),
@@ -58,7 +56,6 @@ impl World {
             stopwatch: Stopwatch::default(),
             stepping: Some(Stepping::of(&settings)?),
             joins: Joins::default(),
-            threads,
             settings,
         })
     }

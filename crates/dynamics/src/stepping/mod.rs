@@ -20,7 +20,6 @@ pub(crate) mod near;
 mod rest;
 pub(crate) mod rules;
 pub(crate) mod rush;
-pub(crate) mod threads;
 mod touch;
 mod within;
 mod write;

@@ -141,14 +141,6 @@ pub enum SettingsError {
         /// What the engine says.
         refused: carom_stepped::EngineError,
     },
-    /// The threads could not be started.
-    #[error("settings.threads is {threads}, but they could not be started: {reason}")]
-    Threads {
-        /// How many there should be.
-        threads: usize,
-        /// What the system says.
-        reason: String,
-    },
 }
 
 fn named(fields: &[&str]) -> String {

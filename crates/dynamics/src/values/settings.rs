@@ -46,8 +46,8 @@ pub struct Settings {
     pub history: usize,
     /// How many events of a step are kept; the buffer says what it left out.
     pub events: usize,
-    /// How many threads a step may use, 1 to 1024, with the cargo feature `parallel`; their number changes no bit. No method shares
-    /// its work among threads yet: the engine that moves large piles has one.
+    /// How many threads a step may use, 1 to 1024: their number changes no bit. No method shares its work among threads yet, and none
+    /// are started.
     pub threads: usize,
 }
 
