@@ -12,7 +12,7 @@ use crate::analytic::islands::mode_budget::changes_motion;
 use crate::analytic::islands::store::{Group, Kept};
 use crate::analytic::islands::{give_motions, kept};
 use crate::analytic::modes::{BodyMove, GroupMove, NotMine, land};
-use crate::analytic::touching::{Gathered, Looks, gather};
+use crate::analytic::touching::{Gathered, gather};
 use crate::events::resolve::PairImpact;
 use crate::model::narrow::{TOUCH, look, opening_speed};
 use crate::{BodyIx, BodyKind, ContactMode, IslandIx, Mode, PairIx, World};
@@ -47,7 +47,7 @@ impl World {
                 && !state.membership.is_closed()
                 && (joins.contains(&true) || !state.membership.has_failed(time))
             {
-                self.solve_modes_around(index, time, 0.0, Looks::Fresh);
+                self.solve_modes_around(index, time, 0.0);
             }
         }
     }
@@ -224,7 +224,7 @@ impl World {
         } else {
             for &index in members {
                 if !self.bodies.get(index).membership.is_closed() {
-                    self.solve_modes_around(index, time, speed, Looks::Old);
+                    self.solve_modes_around(index, time, speed);
                 }
             }
         }
@@ -240,9 +240,9 @@ impl World {
     }
 
     /// Solves for the modes of the island around a body.
-    fn solve_modes_around(&mut self, index: BodyIx, time: SimTime, speed: f64, looks: Looks) {
+    fn solve_modes_around(&mut self, index: BodyIx, time: SimTime, speed: f64) {
         self.report.modes_solved += 1;
-        let mut found = gather(&self.bodies, &mut self.pairs, index, time, looks);
+        let mut found = gather(&self.bodies, &mut self.pairs, index, time);
         while let Err(seen) = &found {
             let leaves = |index: &BodyIx| {
                 let state = self.bodies.get(*index);
@@ -254,7 +254,7 @@ impl World {
             if !self.hand_back_of(index, time) {
                 self.wake(index, time);
             }
-            found = gather(&self.bodies, &mut self.pairs, index, time, looks);
+            found = gather(&self.bodies, &mut self.pairs, index, time);
         }
         let mut gathered = match found {
             Ok(gathered) => gathered,

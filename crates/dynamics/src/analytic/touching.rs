@@ -16,13 +16,6 @@ use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::{BodyIx, PairIx};
 
-/// Whether the contacts of all pairs are those of this instant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Looks {
-    Fresh,
-    Old,
-}
-
 /// All that hangs together by touch around a body.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gathered {
@@ -179,7 +172,6 @@ pub(crate) fn gather(
     pairs: &mut Pairs,
     index: BodyIx,
     time: SimTime,
-    looks: Looks,
 ) -> Result<Gathered, Vec<BodyIx>> {
     let mut found = Gathered::default();
     found.place_of(bodies, index, time);
@@ -209,7 +201,7 @@ pub(crate) fn gather(
                 continue;
             }
             looked.push(place);
-            let Some(more) = touches_of(bodies, pairs, &mut found, place, time, looks) else {
+            let Some(more) = touches_of(bodies, pairs, &mut found, place, time) else {
                 return Err(found.dynamic());
             };
             rows += more;
@@ -228,14 +220,11 @@ fn touches_of(
     found: &mut Gathered,
     place: PairIx,
     time: SimTime,
-    looks: Looks,
 ) -> Option<usize> {
-    let mut touching = pairs.get(place).touching;
-    if looks == Looks::Old {
-        let pair = look_at(bodies, pairs, place, time);
-        // Begins and ends of touch are told once all has its method.
-        core::mem::swap(&mut touching, &mut pair.touching);
-    }
+    let told = pairs.get(place).touching;
+    let pair = look_at(bodies, pairs, place, time);
+    // Begins and ends of touch are told once all has its method.
+    let touching = core::mem::replace(&mut pair.touching, told);
     let pair = pairs.get(place);
     let (a, b) = bodies.both(pair.bodies);
     let size = a.reach.min(b.reach);
