@@ -115,7 +115,7 @@ impl Flight {
                 conic,
                 core: Some(core),
             } => conic.time_outside(t, *core),
-            Law::Stretch(stretch) => stretch.length() - t,
+            Law::Stretch(stretch) => stretch.path.length() - t,
             Law::Held { path, .. } => path.length() - t,
         };
         if known < longest { known } else { longest }
@@ -154,12 +154,12 @@ impl Flight {
             }
             Law::Conic { conic, .. } => conic.bends(x, v),
             Law::Stretch(stretch) => {
-                let acceleration = stretch.acceleration(time - self.start);
+                let (acceleration, _) = stretch.path.acceleration_after(0, time - self.start);
                 // A number that is none bounds nothing.
                 let jerk = Jerk::Damped {
                     law: stretch.jerk().max(0.0),
                     acceleration: acceleration.length().max(0.0),
-                    damping: stretch.damping(),
+                    damping: stretch.path.damping,
                 };
                 (acceleration, jerk)
             }

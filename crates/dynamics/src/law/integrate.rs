@@ -17,7 +17,7 @@ pub(crate) struct Stretch {
     /// It leaves out more than was asked for, and is no shorter: the shortest of all.
     pub(crate) misses: bool,
     /// Of one body, which does not turn.
-    path: Collocated,
+    pub(super) path: Collocated,
 }
 
 impl Stretch {
@@ -68,25 +68,10 @@ impl Stretch {
         }
     }
 
-    /// In s.
-    pub(crate) fn length(&self) -> f64 {
-        self.path.length
-    }
-
-    /// Linear damping, in 1/s.
-    pub(crate) const fn damping(&self) -> f64 {
-        self.path.damping
-    }
-
     /// Place in m and velocity in m/s after `t` seconds, 0 ≤ t ≤ `length`.
     pub(crate) fn at(&self, t: f64) -> (Vec2, Vec2) {
         let (place, velocity, ..) = self.path.body_after(0, t);
         (place, velocity)
-    }
-
-    /// Acceleration after `t` seconds, in m/s².
-    pub(crate) fn acceleration(&self, t: f64) -> Vec2 {
-        self.path.acceleration_after(0, t).0
     }
 
     /// How fast `f` changes along the path, at most, in m/s³: the sum of `k |b_k|/h`. Without damping that is its third derivative.
@@ -95,7 +80,7 @@ impl Stretch {
         let each = (0..8_i32).zip(both);
         each.map(|(k, (x, y))| f64::from(k) * vec2(*x, *y).length())
             .sum::<f64>()
-            / self.length()
+            / self.path.length
     }
 }
 
@@ -137,8 +122,8 @@ mod tests {
         let mut left = seconds;
         while left > 0.0 {
             let stretch = Stretch::follow(&f, damping, (x, v), (1e-6, left.min(1.0)), error, &[]);
-            (x, v) = stretch.at(stretch.length());
-            left -= stretch.length();
+            (x, v) = stretch.at(stretch.path.length);
+            left -= stretch.path.length;
         }
         (x, v)
     }
@@ -174,10 +159,10 @@ mod tests {
         for error in [1e-4, 1e-6, 1e-8, 1e-10] {
             let stretch = Stretch::follow(&f, 0.0, start, (1e-6, 10.0), error, &[]);
             for part in [0.1, 0.37, 0.5, 0.81, 1.0] {
-                let t = part * stretch.length();
+                let t = part * stretch.path.length;
                 let off = (stretch.at(t).0 - conic.at(t).0).length();
                 assert!(
-                    off <= error * stretch.length(),
+                    off <= error * stretch.path.length,
                     "{off:e} m after {t} s at {error:e} m/s"
                 );
             }
