@@ -1,11 +1,11 @@
 //! The next change of a mode, from roots of quadratics.
 
 use super::alone;
-use super::balance::{Balance, Basic, Problem, Tangent, balance};
+use super::balance::{Balance, Basic, Problem, Tangent};
 use super::faces::Faces;
 use super::{BodyMove, Feature, Touch, slip_rate};
 use crate::impact::ImpactBody;
-use carom_math::{Vec2, falling_root, perp};
+use carom_math::{Vec2, perp};
 
 /// How far ahead a load that shifts is looked at where nothing else ends the mode, in s.
 const LOOK: f64 = 64.0;
@@ -21,15 +21,6 @@ const NOTHING: f64 = 1e-12;
 
 /// Halvings of a stretch after which an instant is as near as it comes.
 const HALVINGS: u32 = 60;
-
-/// Steps of false position to where a motion parts: nearly always two or three.
-const PARTINGS: u32 = 6;
-
-/// Margins of a basis that may fall before the one that was found: of 5,729 instants in the tests 186 have a second one.
-const MARGINS: u32 = 4;
-
-/// How far beyond the end of a basis, as a part of the stretch, another one is sought.
-const BEYOND: f64 = 1e-6;
 
 /// How B slides along A: `speed τ + ½ rate τ²` along the tangent, and the stretches that each touches with.
 pub(super) struct Slide {
@@ -175,18 +166,6 @@ impl Load<'_> {
 
     /// The same between an instant from which it goes on with a basis, and one at which it does not.
     fn other_between(&self, mut good: f64, mut bad: f64, mut basis: Vec<bool>) -> f64 {
-        if let Some(root) = self.basis_ends(&basis, (good, bad)) {
-            let beyond = root + BEYOND * (bad - root);
-            if self.goes_on(beyond, &mut basis) {
-                // Another basis bears the load from there on.
-                good = beyond;
-            } else {
-                (good, bad) = (root, beyond);
-            }
-        }
-        if let Some(after) = self.parts_from(good, bad) {
-            return after;
-        }
         for _ in 0..HALVINGS {
             let middle = 0.5 * (good + bad);
             if self.goes_on(middle, &mut basis) {
@@ -196,32 +175,6 @@ impl Load<'_> {
             }
         }
         bad
-    }
-
-    /// Where the first margin of a basis falls through 0 in this stretch.
-    fn basis_ends(&self, basis: &[bool], (good, mut bad): (f64, f64)) -> Option<f64> {
-        let mut root = None;
-        // One margin nearly always; of several the first.
-        for _ in 0..MARGINS {
-            let margins = self.margins(bad, basis)?;
-            let Some(least) = fallen(&margins) else {
-                return root;
-            };
-            let above = self.margins(good, basis)?[least];
-            if above <= 0.0 {
-                return None;
-            }
-            let one = |t: f64| Some(self.margins(t, basis)?[least]);
-            bad = falling_root((good, above), (bad, margins[least]), one)?;
-            root = Some(bad);
-        }
-        None
-    }
-
-    fn margins(&self, after: f64, basis: &[bool]) -> Option<Vec<f64>> {
-        let faces = self.faces_at(after);
-        let problem = Problem::of(&faces, self.tangents).ok()?;
-        Some(problem.with_basis(basis)?.margins)
     }
 
     /// Whether the accelerations are the same where the load is then: with this basis, or with the one that takes its place.
@@ -244,23 +197,6 @@ impl Load<'_> {
             *basis = then.basic;
         }
         same
-    }
-
-    /// The first instant at which a motion that parts from `from` on, with the distance from there, counts as another one.
-    fn parts_from(&self, from: f64, mut after: f64) -> Option<f64> {
-        for _ in 0..PARTINGS {
-            let faces = self.faces_at(after);
-            let then = balance(&faces, self.tangents).ok()?;
-            let differs = self.differs(&faces, &then.state);
-            if differs <= SAME {
-                return None;
-            }
-            if differs <= 4.0 * SAME {
-                return Some(after);
-            }
-            after = from + (after - from) * (2.0 * SAME / differs);
-        }
-        None
     }
 
     /// By what part the accelerations are others.
