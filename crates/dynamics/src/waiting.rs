@@ -117,7 +117,7 @@ impl World {
             if !self.stands(standing) {
                 continue;
             }
-            self.raise_free(time);
+            self.raise_free();
             let pose = self.bodies.get(standing).motion.pose_at(time);
             let (mut near, mut found) = (Vec::new(), Vec::new());
             for &at in &self.bodies.get(standing).colliders {

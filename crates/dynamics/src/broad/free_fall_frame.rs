@@ -4,7 +4,6 @@
 //! they take to travel a part of a cell there, however fast all of them fall.
 
 use carom_collision::Motion;
-use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 /// A frame of reference with an origin that moves by `velocity u + acceleration u²/2` from `since` on.
@@ -40,34 +39,6 @@ impl Track {
         let (v, a) = (self.velocity.abs(), self.acceleration.abs());
         let along = |v: f64, a: f64| 2.0 * way / (v + (v * v + 2.0 * a * way).sqrt());
         let (x, y) = (along(v.x, a.x), along(v.y, a.y));
-        if x < y { x } else { y }
-    }
-
-    /// Seconds for which the centre surely stays within a box; 0 if it is not there.
-    pub(crate) fn seconds_within(&self, bounds: Aabb) -> f64 {
-        let way = |x: f64, v: f64, a: f64, low: f64, high: f64| {
-            let (down, up) = (x - low, high - x);
-            let nearer = if down < up { down } else { up };
-            if nearer <= 0.0 {
-                0.0
-            } else if a != 0.0 {
-                nearer
-            } else if v > 0.0 {
-                up
-            } else {
-                down
-            }
-        };
-        let (c, v, a) = (self.centre, self.velocity, self.acceleration);
-        let seconds = |way: f64, v: f64, a: f64| {
-            if way > 0.0 {
-                2.0 * way / (v.abs() + (v * v + 2.0 * a.abs() * way).sqrt())
-            } else {
-                0.0
-            }
-        };
-        let x = seconds(way(c.x, v.x, a.x, bounds.min.x, bounds.max.x), v.x, a.x);
-        let y = seconds(way(c.y, v.y, a.y, bounds.min.y, bounds.max.y), v.y, a.y);
         if x < y { x } else { y }
     }
 
@@ -121,38 +92,6 @@ impl Frame {
 mod tests {
     use super::*;
     use carom_math::vec2;
-
-    #[test]
-    fn a_track_stays_within_a_box_as_long_as_it_says() {
-        let bounds = Aabb::new(vec2(-3.0, -2.0), vec2(4.0, 5.0));
-        let tracks = [
-            (vec2(1.0, 1.0), vec2(3.0, -0.5), Vec2::ZERO),
-            (vec2(1.0, 1.0), vec2(-3.0, 4.0), vec2(0.0, -10.0)),
-            (vec2(-2.0, 4.0), vec2(0.0, 0.0), vec2(1.0, 0.0)),
-            (vec2(1.0, 1.0), vec2(0.0, 0.0), Vec2::ZERO),
-        ];
-        for (centre, velocity, acceleration) in tracks {
-            let track = Track {
-                centre,
-                velocity,
-                acceleration,
-            };
-            let seconds = track.seconds_within(bounds);
-            assert!(seconds > 0.0);
-            for part in 0..100 {
-                let there = track.centre_after(0.01 * f64::from(part) * seconds.min(1e3));
-                assert!(bounds.contains(Aabb::from_points([there])), "{track:?}");
-            }
-        }
-        for velocity in [vec2(-1.0, 0.0), Vec2::ZERO] {
-            let outside = Track {
-                centre: vec2(5.0, 0.0),
-                velocity,
-                acceleration: Vec2::ZERO,
-            };
-            assert_eq!(outside.seconds_within(bounds), 0.0);
-        }
-    }
 
     #[test]
     fn what_falls_with_the_frame_keeps_its_velocity_in_it() {

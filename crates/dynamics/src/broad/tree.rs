@@ -26,8 +26,6 @@ pub(crate) type Overlapping<'a> = dyn Fn(&Bodies, Aabb, &mut Vec<BodyIx>) + 'a;
 pub(crate) struct Broad {
     pub(crate) search: PairSearch,
     pub(crate) tree: BoxTree,
-    /// When last a box came into the tree, or was changed there.
-    pub(crate) changed: SimTime,
     pub(crate) overrides: BTreeMap<(BodyId, BodyId), PairMaterial>,
     /// Pairs of bodies, in order, that do not collide whatever their filters say.
     pub(crate) excluded: BTreeSet<(BodyId, BodyId)>,
@@ -73,7 +71,7 @@ impl Broad {
                 0.0
             };
             let fat = swept.union(ahead).grown(padding);
-            self.put(bodies, at, fat, time);
+            self.put(bodies, at, fat);
             self.meet(bodies, pairs, at, free);
         }
     }
@@ -88,12 +86,11 @@ impl Broad {
     }
 
     /// Gives a collider a new box.
-    pub(crate) fn put(&mut self, bodies: &mut Bodies, at: ColliderIx, fat: Aabb, time: SimTime) {
+    pub(crate) fn put(&mut self, bodies: &mut Bodies, at: ColliderIx, fat: Aabb) {
         let collider = &mut bodies.colliders[at];
         collider.fat = fat;
         // The tree is asked where a body is at instants in between, too.
         let kept = fat.grown(roundable(fat));
-        self.changed = time;
         if let Some(node) = collider.node {
             self.tree.update(node, kept);
         } else {
@@ -112,7 +109,7 @@ impl Broad {
         let motion = bodies.get(index).motion;
         for &at in &bodies.get(index).colliders.clone() {
             let fat = swept_box(&bodies.colliders[at], &motion, time, seconds);
-            self.put(bodies, at, fat, time);
+            self.put(bodies, at, fat);
         }
     }
 

@@ -8,7 +8,7 @@ use crate::store::state::BodyState;
 
 /// Reaches are taken this much larger, so that no rounding at a rim loses a pair, and the search for the
 /// time of impact begins before it, where the gap is above its tolerance.
-pub(crate) const ROOM: f64 = 1.0 + 1.0 / 1024.0;
+const ROOM: f64 = 1.0 + 1.0 / 1024.0;
 
 /// Circles that accelerate against each other count as met this much sooner, as a factor: a bound on when they meet is
 /// short of it by a part, again and again, and two that pass each other nearly in touch would be looked at for ever.
@@ -130,7 +130,7 @@ pub(crate) fn swept(state: &BodyState, track: &Track, seconds: f64) -> Aabb {
 }
 
 /// Rounding of where a body is within a box, and how far its motion is from its true path, in m.
-pub(crate) fn room_about(state: &BodyState, bounds: Aabb) -> f64 {
+fn room_about(state: &BodyState, bounds: Aabb) -> f64 {
     let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
     1e-9 * state.reach + 1e-14 * largest + state.motion.left_out
 }

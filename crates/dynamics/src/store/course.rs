@@ -25,8 +25,6 @@ pub(crate) struct Course {
     pub(crate) span: f64,
     /// Way of its first look down, as a part of the longest: less where it found much.
     pub(crate) look: f64,
-    /// When it found nothing there; never, if there was something.
-    pub(crate) clear_at: SimTime,
     /// The tick in which it last struck, and what its impacts spent in it.
     pub(crate) tick: u64,
     pub(crate) spent: f64,
@@ -44,7 +42,6 @@ impl Default for Course {
             span: 0.0,
             look: 1.0,
             alone: false,
-            clear_at: SimTime::NEVER,
             entered: (SimTime::NEVER, SimTime::NEVER),
             tick: 0,
             spent: 0.0,

@@ -52,9 +52,6 @@ impl World {
         // A body that does not fall leaves the free-fall frame ever faster.
         if self.bodies.get(index).moves_analytically() || !self.look_round(index, time) {
             self.follow(index, time, 0.0);
-        } else if cause == Cause::Deflected && self.is_clear(index, time) {
-            self.meet_free_bodies(index, time, cause, but);
-            return self.meet_members(index, time);
         } else {
             self.broad.forget(&mut self.bodies, index);
             self.look_down(index, time, self.first_span(index, time));

@@ -7,7 +7,7 @@ use super::circle::Circle;
 use super::foresee::{Cause, at_most};
 use super::queue::What;
 use crate::broad::free_fall_frame::Track;
-use crate::broad::window::{self, room_about, swept};
+use crate::broad::window::{self, swept};
 use crate::store::swept::Sides;
 use crate::{BodyIx, BodyKind, ColliderIx, World};
 
@@ -20,9 +20,6 @@ const SHORTEST: f64 = 1.0 / 16.0;
 const MANY: usize = 8;
 const FEW: usize = 2;
 
-/// How much farther it looks about that way, in cells, where it remembers: as much less as it looks less far.
-const CLEARING: f64 = 0.75;
-
 impl World {
     /// Boxes of a free body in the world for the next `span` seconds; without end while nothing is there.
     pub(super) fn look_down(&mut self, index: BodyIx, time: SimTime, span: f64) {
@@ -33,65 +30,16 @@ impl World {
             return self.bodies.set_boxes(index, Aabb::EMPTY);
         }
         let span = at_most(span);
-        let room = if self.clears() {
-            CLEARING * self.bodies.get(index).course.look * self.free.grid.side()
-        } else {
-            0.0
-        };
         let state = self.bodies.get_mut(index);
         state.course.span = span;
         state.course.ground = (time + span).min(state.piece());
         let span = state.course.ground - time;
-        let way = swept(state, &Track::of(&state.motion, time), span).grown(room);
+        let way = swept(state, &Track::of(&state.motion, time), span);
         state.course.reached = Sides::around(way);
         self.free.lift(&state.course, index);
         let bounds = state.course.reached.bounds();
         self.bodies.set_boxes(index, bounds);
         self.queue_end(index, What::GROUND);
-    }
-
-    /// Whether a free body with a new motion stays in a clearing for as long as it has looked round: where it looked down
-    /// last, nothing was there, and nothing has come. It does not look down again before it leaves.
-    pub(super) fn is_clear(&mut self, index: BodyIx, time: SimTime) -> bool {
-        let (clears, changed) = (self.clears(), self.broad.changed);
-        let state = self.bodies.get_mut(index);
-        // Not at the same instant: what is found must not depend on the order in which bodies come.
-        if !clears || state.course.clear_at == SimTime::NEVER || state.course.clear_at <= changed {
-            return false;
-        }
-        let clearing = state.course.reached.bounds();
-        let rim = state.reach * window::ROOM + room_about(state, clearing);
-        let stays = Track::of(&state.motion, time).seconds_within(clearing.grown(-rim));
-        if time + stays < self.free.horizon(state) {
-            return false;
-        }
-        let span = at_most(stays);
-        state.course.span = span;
-        state.course.ground = (time + span).min(state.piece());
-        self.queue_end(index, What::GROUND);
-        true
-    }
-
-    /// Whether free bodies remember where nothing was: not while others need to find them by narrow boxes.
-    fn clears(&self) -> bool {
-        !self.free.is_raised()
-    }
-
-    /// Boxes of all free bodies without the room about their ways: from now on bodies need to find them by narrow ones.
-    pub(super) fn narrow(&mut self, time: SimTime) {
-        if !self.free.grounded {
-            return;
-        }
-        for index in self.free.in_order() {
-            let state = self.bodies.get_mut(index);
-            let left = state.course.ground - time;
-            if left < 0.0 {
-                continue;
-            }
-            let way = swept(state, &Track::of(&state.motion, time), at_most(left));
-            state.course.reached = Sides::around(way);
-            self.bodies.set_boxes(index, way);
-        }
     }
 
     /// From the first box in the tree on free bodies look down for what is there.
@@ -123,7 +71,6 @@ impl World {
             let collider = &self.bodies.colliders[*at];
             collider.body != index && collider.fat.overlaps(reached)
         };
-        let clear = !near.iter().any(overlaps);
         // The box of a half-plane that leans is all of the plane: it is there however short a free body looks.
         let bounded = |at: &ColliderIx| self.bodies.colliders[*at].solid.is_bounded();
         let found = near.iter().filter(|at| overlaps(at) && bounded(at)).count();
@@ -134,7 +81,6 @@ impl World {
         } else if found <= FEW {
             course.look = (2.0 * course.look).min(1.0);
         }
-        course.clear_at = if clear { time } else { SimTime::NEVER };
         near.retain(|&at| self.bodies.colliders[at].body != index);
         let mut waiting = Vec::new();
         for &at in &near {

@@ -226,14 +226,13 @@ impl World {
         if !self.is_substepping() {
             self.clock.catch_up(time);
         }
-        self.raise_free(time);
+        self.raise_free();
         self.unsettled.insert(index);
     }
 
     /// Bodies look for free bodies by boxes in the world from now on.
-    pub(crate) fn raise_free(&mut self, time: SimTime) {
+    pub(crate) fn raise_free(&mut self) {
         if !self.free.is_raised() {
-            self.narrow(time);
             self.free.raise(&self.bodies);
         }
         self.lower_free_boxes_later();
