@@ -11,6 +11,8 @@ use super::zeno::ZenoSeries;
 pub(crate) struct Course {
     /// Until when what does not fly has been looked for.
     pub(crate) ground: SimTime,
+    /// Until when it has looked round for free bodies, where it is in the grid.
+    pub(crate) horizon: SimTime,
     /// Where it is in the grid; none for what is too large for it, and is in the tree of boxes.
     pub(crate) cells: Option<Cells>,
     /// Nothing was found where it looked down, but for half-planes.
@@ -38,6 +40,7 @@ impl Default for Course {
             swept: Sides::NOTHING,
             cells: None,
             ground: SimTime::ZERO,
+            horizon: SimTime::ZERO,
             reached: Sides::NOTHING,
             span: 0.0,
             look: 1.0,

@@ -2,8 +2,6 @@
 
 use carom_math::SimTime;
 
-use super::FreeBodies;
-use super::foresee::both_in_grid;
 use crate::broad::free_fall_frame::Track;
 use crate::broad::window::{self, Window};
 use crate::store::state::BodyState;
@@ -40,17 +38,5 @@ impl Circle {
             to: if bends { f64::INFINITY } else { window.to },
             ..window
         })
-    }
-}
-
-impl FreeBodies {
-    /// Until when two free bodies have looked for each other.
-    pub(super) fn common_horizon(&self, a: &BodyState, b: &BodyState) -> SimTime {
-        if both_in_grid(a, b) {
-            self.horizon(a).min(self.horizon(b))
-        } else {
-            // The larger one is in the tree, and met where the other looks down.
-            a.course.ground.min(b.course.ground)
-        }
     }
 }

@@ -101,7 +101,7 @@ impl World {
     /// than its searches end.
     pub(super) fn queue_end(&mut self, index: BodyIx, what: What) {
         let state = self.bodies.get_mut(index);
-        let end = self.free.end(state, what);
+        let end = state.course.end(what);
         let entered = state.course.entered(what);
         if *entered <= end {
             return;
@@ -203,7 +203,7 @@ impl World {
         }
         if window.from > 0.0 {
             let meet = time + window.from;
-            if meet <= self.free.common_horizon(a, b) {
+            if meet <= common_horizon(a, b) {
                 self.queue_near(index, other, meet);
             }
             return;
@@ -334,7 +334,7 @@ impl World {
     /// Whether the search that an entry is for ends now; if it ends later, that is entered.
     fn ends_now(&mut self, entry: &Entry) -> bool {
         let state = self.bodies.get_mut(entry.a);
-        let end = self.free.end(state, entry.what);
+        let end = state.course.end(entry.what);
         let goes = state.goes_by_events();
         let course = &mut state.course;
         let entered = course.entered(entry.what);
@@ -361,6 +361,16 @@ impl World {
 /// far behind: its window may have been open for long, and is followed from one look to the next.
 pub(super) const fn both_in_grid(a: &BodyState, b: &BodyState) -> bool {
     a.course.cells.is_some() && b.course.cells.is_some()
+}
+
+/// Until when two free bodies have looked for each other.
+pub(super) fn common_horizon(a: &BodyState, b: &BodyState) -> SimTime {
+    if both_in_grid(a, b) {
+        a.course.horizon.min(b.course.horizon)
+    } else {
+        // The larger one is in the tree, and met where the other looks down.
+        a.course.ground.min(b.course.ground)
+    }
 }
 
 pub(super) fn at_most(seconds: f64) -> f64 {

@@ -31,7 +31,6 @@ use crate::broad::grid::{Grid, SweptBox};
 use crate::store::bodies::Bodies;
 use crate::store::course::Course;
 use crate::store::slots::{List, Slots};
-use crate::store::state::BodyState;
 use crate::{BodyIx, ColliderIx, ImpactIx, Two};
 use aside::Aside;
 pub(crate) use foresee::Cause;
@@ -45,6 +44,32 @@ impl Course {
         match what {
             What::GROUND => &mut self.entered.1,
             _ => &mut self.entered.0,
+        }
+    }
+
+    /// Until when other free bodies have been looked for; by those that are not in the grid, where they look for all.
+    fn horizon(&self) -> SimTime {
+        if self.cells.is_some() {
+            self.horizon
+        } else {
+            self.ground
+        }
+    }
+
+    /// Until when all has been looked for that does not fly; all that flies, where nothing else is there.
+    fn end_of_search(&self) -> SimTime {
+        if self.ground == SimTime::NEVER {
+            self.horizon()
+        } else {
+            self.ground
+        }
+    }
+
+    /// When a search ends.
+    fn end(&self, what: What) -> SimTime {
+        match what {
+            What::GROUND => self.ground,
+            _ => self.horizon(),
         }
     }
 }
@@ -76,8 +101,6 @@ pub(crate) struct FreeBodies {
     nodes: List<BodyIx, Option<NodeId>>,
     /// Bodies in the grid.
     in_grid: BTreeSet<BodyIx>,
-    /// Until when they have looked round for each other, by body.
-    horizons: List<BodyIx, SimTime>,
     queue: Queue,
     aside: Aside,
     impacts: Slots<ImpactIx, Foreseen>,
@@ -112,34 +135,7 @@ impl FreeBodies {
 
     /// Makes room for so many more.
     pub(crate) fn reserve(&mut self, more: usize) {
-        self.horizons.reserve_exact(more);
         self.seen.reserve_exact(more);
-    }
-
-    /// Until when other free bodies have been looked for; by those that are not in the grid, where they look for all.
-    fn horizon(&self, state: &BodyState) -> SimTime {
-        if state.course.cells.is_some() {
-            self.horizons[state.id.index]
-        } else {
-            state.course.ground
-        }
-    }
-
-    /// Until when all has been looked for that does not fly; all that flies, where nothing else is there.
-    fn end_of_search(&self, state: &BodyState) -> SimTime {
-        if state.course.ground == SimTime::NEVER {
-            self.horizon(state)
-        } else {
-            state.course.ground
-        }
-    }
-
-    /// When a search ends.
-    fn end(&self, state: &BodyState, what: What) -> SimTime {
-        match what {
-            What::GROUND => state.course.ground,
-            _ => self.horizon(state),
-        }
     }
 
     /// Puts a body into the grid, if it fits, or where it belongs there by now.
@@ -150,6 +146,7 @@ impl FreeBodies {
             self.leave(bodies, index);
             return false;
         }
+        course.horizon = horizon;
         let swept_box = SweptBox::new(index, course.swept);
         match course.cells.replace(cells) {
             Some(known) => self.grid.shift(swept_box, known, cells),
@@ -158,7 +155,6 @@ impl FreeBodies {
                 self.in_grid.insert(index);
             }
         }
-        *self.horizons.grown(index, SimTime::ZERO) = horizon;
         true
     }
 

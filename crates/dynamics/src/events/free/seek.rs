@@ -10,7 +10,7 @@ use carom_math::{SimTime, Vec2};
 
 use super::Foreseen;
 use super::circle::Circle;
-use super::foresee::{Cause, both_in_grid};
+use super::foresee::{Cause, both_in_grid, common_horizon};
 use super::strike::approach_speed;
 use super::turning::first_piece;
 use crate::broad::window::{Window, ways_from};
@@ -66,7 +66,7 @@ impl World {
         let end = if window.to.is_finite() && both_in_grid(one, two) {
             window.to
         } else {
-            window.to.min(self.free.common_horizon(one, two) - time)
+            window.to.min(common_horizon(one, two) - time)
         };
         let shapes = (one.colliders.clone(), two.colliders.clone());
         self.seek_all((a, b), shapes, time, end, cause);

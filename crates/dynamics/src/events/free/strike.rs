@@ -211,10 +211,7 @@ impl World {
         // Another look when the approach may have gone deeper than impacts leave, or when the touch is open.
         let (one, two) = (self.bodies.get(a), self.bodies.get(b));
         let slack = SLACK * one.reach.min(two.reach);
-        let left = self
-            .free
-            .end_of_search(one)
-            .max(self.free.end_of_search(two));
+        let left = one.course.end_of_search().max(two.course.end_of_search());
         let left = (left - time).max(1e-9);
         let deeper = if speed > 0.0 { slack / speed } else { left };
         let wait = deeper.min(first_rise(slack, -speed, pull));
