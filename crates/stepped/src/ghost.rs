@@ -2,14 +2,17 @@
 //!
 //! Body by body, over all rows of the tick. A row with piece P is hidden if some other row of the body has a plane that all
 //! of P lies behind, and its points lie in this plane or behind it, where just beyond P on the side of the row's normal
-//! another touched piece goes on. Ends have no such piece, at convex bends it lies on the other side, and at inner corners P
-//! reaches through the plane.
+//! another touched piece goes on. Ends have no such piece, and at convex bends it lies on the other side. At inner corners P
+//! reaches through the plane: where it stands, a row with a side of it that does not reach through is one with the side that
+//! does, as at the tip of a ramp that a body slides up to.
 
 use core::ops::Range;
+use std::collections::BTreeMap;
 
 use carom_math::{Vec2, perp};
 
 use crate::bodies::{Bodies, BodyKind};
+use crate::narrow::Manifold;
 use crate::outline::Outline;
 use crate::pieces::Pieces;
 use crate::rows::Graph;
@@ -106,12 +109,14 @@ struct Row {
     slope: f64,
     piece: u32,
     contact: u32,
+    /// Whether the piece stands, or is driven, and the body's own has sides: a disc meets no tip before it meets the sides.
+    is_tip: bool,
 }
 
 /// Hides rows of moved bodies until they are computed anew.
 pub(crate) fn hide(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
     let mut rows: Vec<Row> = Vec::new();
-    let mut ghosts = Vec::new();
+    let (mut ghosts, mut sides) = (Vec::new(), BTreeMap::new());
     let suspects = graph.suspects.contacts();
     for asked in suspects.chunk_by(|a, b| a.0 == b.0) {
         let slot = bodies.slot_of[asked[0].0 as usize];
@@ -124,7 +129,7 @@ pub(crate) fn hide(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
         rows.clear();
         rows.extend(
             ids.take(MOST + 1)
-                .map(|id| Row::of(graph, pieces, id, &its)),
+                .map(|id| Row::of(graph, (bodies, pieces), id, &its)),
         );
         if rows.len() > MOST {
             continue;
@@ -133,11 +138,16 @@ pub(crate) fn hide(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
             if let Some(k) = rows.iter().position(|row| row.contact == contact) {
                 rows[k].end_near(pieces);
                 let row = &rows[k];
-                if rows
+                let seen = rows
                     .iter()
-                    .any(|other| is_hidden(&rows, pieces, row, other))
-                {
-                    ghosts.push(contact);
+                    .map(|other| seen_over(&rows, pieces, row, other));
+                match seen.fold(Seen::Whole, Seen::less) {
+                    Seen::Whole => {}
+                    Seen::Nothing => ghosts.push(contact),
+                    Seen::Side(side) => {
+                        ghosts.push(contact);
+                        sides.insert(contact, row.on_side(graph, pieces, side));
+                    }
                 }
             }
         }
@@ -145,13 +155,35 @@ pub(crate) fn hide(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
     // Impulses of several are taken out of one body in an order that other islands do not change.
     graph.sort(bodies, &mut ghosts);
     for id in ghosts {
-        graph.hide(bodies, id);
+        match sides.get(&id) {
+            Some(manifold) => graph.put_anew(bodies, id, manifold),
+            None => graph.hide(bodies, id),
+        }
     }
 }
 
-/// Whether all of the piece P of a row lies behind the plane of another one, and where its side goes on beyond the points another
-/// piece is.
-fn is_hidden(rows: &[Row], pieces: &Pieces, row: &Row, other: &Row) -> bool {
+/// What of the piece P of a row is seen from above the plane of another one.
+#[derive(Clone, Copy)]
+enum Seen {
+    Whole,
+    /// The side that goes up from where the row is, by its number.
+    Side(usize),
+    Nothing,
+}
+
+impl Seen {
+    const fn less(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Nothing, _) | (_, Self::Nothing) => Self::Nothing,
+            (Self::Side(_), _) => self,
+            (Self::Whole, _) => other,
+        }
+    }
+}
+
+/// What is seen of the piece P of a row from above the plane of another one: nothing if all of P lies behind that, and one side where the
+/// side with the row's normal does, if beyond the points another piece goes on.
+fn seen_over(rows: &[Row], pieces: &Pieces, row: &Row, other: &Row) -> Seen {
     let (normal, plane) = (row.normal, other.normal);
     let along = normal.dot(plane);
     let flush = row.flush.min(other.flush);
@@ -161,25 +193,47 @@ fn is_hidden(rows: &[Row], pieces: &Pieces, row: &Row, other: &Row) -> bool {
         || along * along > 1.0 - LEANS * LEANS
         || row.points.iter().any(|point| height(*point) > flush)
     {
-        return false;
+        return Seen::Whole;
     }
     let p = pieces.outline(row.piece);
     if row.piece == other.piece || !has_sides(p) {
-        return false;
+        return Seen::Whole;
     }
+    let count = p.corners();
+    let is_behind = |i: usize| height(p.centre() + p.corner(i % count)) + p.radius() <= flush;
+    let seen = if (0..count).all(is_behind) {
+        Seen::Nothing
+    } else if row.is_tip {
+        let goes_up = |i: &usize| is_behind(*i) != is_behind(i + 1);
+        let facing = |i: usize| p.normal(i).dot(normal);
+        let sides = (0..count).filter(goes_up).map(|i| (facing(i), i));
+        match sides.max_by(|x, y| x.0.total_cmp(&y.0)) {
+            // The row's own side is seen.
+            Some((facing, side)) if facing > LEANS && facing < 1.0 - LEANS * LEANS => {
+                Seen::Side(side)
+            }
+            _ => return Seen::Whole,
+        }
+    } else {
+        return Seen::Whole;
+    };
     let lean = normal - plane * along;
     let lean = lean * (10.0 * flush / lean.length());
-    (0..p.corners()).all(|i| height(p.centre() + p.corner(i)) + p.radius() <= flush)
-        && row.points.iter().all(|point| {
-            rows.iter().any(|third| {
-                let q = third.piece;
-                let (point, bounds) = (*point + lean, pieces.boxes[q as usize]);
-                q != row.piece
-                    && bounds.grown(flush).contains_point(point)
-                    && has_sides(pieces.outline(q))
-                    && !pieces.outline(q).is_beyond_side(point, flush)
-            })
+    let goes_on = |point: &Vec2| {
+        rows.iter().any(|third| {
+            let q = third.piece;
+            let (point, bounds) = (*point + lean, pieces.boxes[q as usize]);
+            q != row.piece
+                && bounds.grown(flush).contains_point(point)
+                && has_sides(pieces.outline(q))
+                && !pieces.outline(q).is_beyond_side(point, flush)
         })
+    };
+    if row.points.iter().all(goes_on) {
+        seen
+    } else {
+        Seen::Whole
+    }
 }
 
 /// Whether other pieces may hide sides of a piece: of discs they hide none.
@@ -189,7 +243,12 @@ const fn has_sides(piece: &Outline) -> bool {
 
 impl Row {
     /// A contact of the body that has the pieces `its`.
-    fn of(graph: &Graph, pieces: &Pieces, contact: u32, its: &Range<u32>) -> Self {
+    fn of(
+        graph: &Graph,
+        (bodies, pieces): (&Bodies, &Pieces),
+        contact: u32,
+        its: &Range<u32>,
+    ) -> Self {
         let pair = graph.contacts[contact as usize].pieces;
         let (block, _, lane) = graph.lane(contact);
         let (side, sign) = if its.contains(&pair[0]) {
@@ -215,7 +274,27 @@ impl Row {
             slope: if two { gaps[1] - gaps[0] } else { 0.0 },
             piece: pair[side],
             contact,
+            is_tip: bodies.lines[[block.a, block.b][side][lane] as usize].inverse_mass() == 0.0
+                && has_sides(pieces.outline(pair[1 - side])),
         }
+    }
+
+    /// The contact with one side of the piece, at the nearest corner of the body's own.
+    fn on_side(&self, graph: &Graph, pieces: &Pieces, side: usize) -> Manifold {
+        let [a, b] = graph.contacts[self.contact as usize].pieces;
+        let own = pieces.outline(if a == self.piece { b } else { a });
+        let piece = pieces.outline(self.piece);
+        let out = piece.normal(side);
+        let corners = (0..own.corners()).map(|i| own.centre() + own.corner(i));
+        let height = |point: Vec2| out.dot(point - piece.centre() - piece.corner(side));
+        let heights = corners.map(|corner| (height(corner), corner));
+        let first = (f64::INFINITY, Vec2::ZERO);
+        let (height, corner) = heights.fold(first, |x, y| if y.0 < x.0 { y } else { x });
+        let gap = height - piece.radius() - own.radius();
+        let at = corner - out * (own.radius() + 0.5 * gap);
+        let normal = if a == self.piece { out } else { -out };
+        let arms = [a, b].map(|k| at - pieces.outline(k).centre());
+        Manifold::single(normal, arms, gap)
     }
 
     /// Where a side of the piece slants away from a face of the body it meets that with its near end alone.

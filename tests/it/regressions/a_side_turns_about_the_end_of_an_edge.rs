@@ -2,7 +2,7 @@
 //! the plate, was struck in the air, and the box stood still at once: 1.9 J lost where it is 0.78 J, and the report said exact.
 
 use carom_dynamics::{BodyDef, Material, Mode, Settings, World};
-use carom_math::{Vec2, vec2};
+use carom_math::{Rot, vec2};
 use carom_tests::scenes::{block, put};
 
 #[test]
@@ -11,7 +11,7 @@ fn a_side_turns_about_the_end_of_an_edge() {
     // In the frame of the corner that it tips over, which is 0.8 m from the plate's end.
     let (way, end) = (vec2(0.5 * width, 0.5 * height), 0.8);
     let square = (width * width + height * height) / 12.0;
-    let fall = Vec2::from_angle(angle).rotate(way).y - way.y;
+    let fall = (Rot::from_angle(angle) * way).y - way.y;
     let before = 9.81 * fall;
     // Angular momentum about the end, for a spin of 1 and a mass of 1.
     let from_end = way - vec2(end, 0.0);
@@ -34,7 +34,7 @@ fn a_side_turns_about_the_end_of_an_edge() {
         };
         let plate = BodyDef::fixed().at(vec2(0.0, -0.5));
         put(&mut world, plate, block(1.0, 1.0), rough);
-        let centre = vec2(0.5 - end, 0.0) + Vec2::from_angle(angle).rotate(way);
+        let centre = vec2(0.5 - end, 0.0) + Rot::from_angle(angle) * way;
         let def = BodyDef {
             angle,
             ..BodyDef::dynamic().at(centre)

@@ -30,7 +30,7 @@ fn what_a_kinematic_body_did_is_its_work() {
             ..Settings::default()
         };
         let stand = |kind: BodyDef, velocity: Vec2, count: u32| {
-            let mut world = World::new(settings.clone()).expect("valid settings");
+            let mut world = World::new(settings).expect("valid settings");
             let def = kind.at(vec2(0.0, -0.5)).moving(velocity);
             put(&mut world, def, block(40.0, 1.0), Material::default());
             for k in 0..count {

@@ -7,7 +7,8 @@
 //! serves tiles.)
 //!
 //! A piece that stands out of the plane by more than [`TOUCH`] is no ghost: steps of a micrometre, inner corners and ramps
-//! stay. So do the ends of a floor: a body that tips over them is behind the plane.
+//! stay. But what touches of it below the plane is not there: at the tip of a ramp that stays which goes up from there. So
+//! do the ends of a floor: a body that tips over them is behind the plane.
 
 use carom_collision::{Hull, contacts};
 use carom_math::{Pose, SimTime, Vec2, cross};
@@ -21,6 +22,27 @@ use crate::{BodyIx, ColliderIx, PairIx, Two};
 
 /// Sine of the angle up to which two normals are one.
 const ALONG: f64 = 1e-6;
+
+/// What of a piece a body can touch that lies on a face of another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Left {
+    /// What it touches.
+    All,
+    /// Of the tip of a ramp, the side that goes up: its outward unit normal.
+    Side(Vec2),
+    /// All of it lies behind the face.
+    Nothing,
+}
+
+impl Left {
+    const fn less(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Nothing, _) | (_, Self::Nothing) => Self::Nothing,
+            (Self::Side(_), _) => self,
+            (Self::All, _) => other,
+        }
+    }
+}
 
 /// Where a body meets a convex piece of what stands.
 #[derive(Clone, Copy, Debug)]
@@ -60,8 +82,8 @@ impl Meeting {
         })
     }
 
-    /// Whether a face of another piece, which the body touches at `time`, parts the two along another normal.
-    pub(crate) fn is_ghost(&self, bodies: &Bodies, pairs: &Pairs, time: SimTime) -> bool {
+    /// What a face of another piece, which the body touches at `time` and which parts the two along another normal, leaves of the piece.
+    pub(crate) fn left(&self, bodies: &Bodies, pairs: &Pairs, time: SimTime) -> Left {
         let body = bodies.get(self.body);
         let hull = |(collider, number): (ColliderIx, u32)| bodies.hull(collider, number);
         let pose_of = |collider: ColliderIx| {
@@ -74,31 +96,77 @@ impl Meeting {
             stands(bodies.get(pair.other(self.body))) && !self.is_along_all(pair, bodies)
         };
         let mut found = Vec::new();
-        let mut pairs = body.pairs.iter().map(|place| pairs.get(*place));
-        pairs.any(|pair| {
-            if !bears(pair) {
-                return false;
-            }
+        let pairs = body.pairs.iter().map(|place| pairs.get(*place));
+        let left = pairs.filter(|pair| bears(pair)).map(|pair| {
             let (mine, base) = pair.shapes_from(self.body);
             let (pose, base_pose) = (pose_of(mine), pose_of(base));
             let solid = |collider: ColliderIx| &*bodies.colliders[collider].solid;
             found.clear();
             let seen = pose.seen_from(base_pose);
             contacts(solid(base), solid(mine), seen, touch, &mut found);
-            found.iter().any(|contact| {
+            let left = found.iter().map(|contact| {
                 let normal = base_pose.vector(contact.manifold.normal);
                 let at = (base, contact.part_a);
                 let Some(level) = level_of_face(&hull(at), base_pose, normal) else {
-                    return false;
+                    return Left::All;
                 };
                 let depth = contact.manifold.deepest().map_or(0.0, |gap| -gap).max(0.0);
-                let piece_pose = pose_of(self.piece.0);
-                at != self.piece
-                    && !self.is_along(normal)
-                    && top(&hull(self.piece), piece_pose, normal) <= level + touch
-                    && -top(&hull(self.own), pose, -normal) >= level - depth - touch
-            })
-        })
+                let (piece, piece_pose) = (hull(self.piece), pose_of(self.piece.0));
+                if at == self.piece
+                    || self.is_along(normal)
+                    || -top(&hull(self.own), pose, -normal) < level - depth - touch
+                {
+                    Left::All
+                } else if top(&piece, piece_pose, normal) <= level + touch {
+                    Left::Nothing
+                } else {
+                    self.side_above(&piece, piece_pose, (normal, level + touch), touch)
+                        .map_or(Left::All, Left::Side)
+                }
+            });
+            left.fold(Left::All, Left::less)
+        });
+        left.fold(Left::All, Left::less)
+    }
+
+    /// Of a piece that touches the body below a plane alone, but stands out of it, the side that goes up from there: its unit normal.
+    fn side_above(
+        &self,
+        piece: &Hull<'_>,
+        pose: Pose,
+        (normal, level): (Vec2, f64),
+        touch: f64,
+    ) -> Option<Vec2> {
+        if piece.is_half_plane() || piece.radius > 0.0 {
+            return None;
+        }
+        let height = |i: usize| pose.point(piece.vertices[i]).dot(normal);
+        let farthest = piece.support(pose.inverse_vector(self.out)).1;
+        let touches =
+            |i: usize| farthest - piece.vertices[i].dot(pose.inverse_vector(self.out)) <= touch;
+        let count = piece.vertices.len();
+        if (0..count).any(|i| touches(i) && height(i) > level) {
+            return None;
+        }
+        let goes_up = |&edge: &usize| {
+            let (from, to) = (edge, (edge + 1) % count);
+            let ends = [(from, to), (to, from)];
+            piece.is_boundary(edge)
+                && ends
+                    .into_iter()
+                    .any(|(low, high)| touches(low) && height(high) > level)
+        };
+        let edge = (0..piece.normals.len()).find(goes_up)?;
+        Some(pose.vector(piece.normals[edge]))
+    }
+
+    /// A normal out of the piece as one from the first body to the second, as `normal` is.
+    pub(crate) fn facing(&self, out: Vec2, normal: Vec2) -> Vec2 {
+        if normal.dot(self.out) > 0.0 {
+            out
+        } else {
+            -out
+        }
     }
 
     /// Whether all contacts that were last found for a pair have the meeting's own normal: no face of it is another one's.
@@ -126,19 +194,26 @@ pub(crate) fn look_at<'a>(
 ) -> &'a mut Pair {
     look(bodies, pairs.get_mut(place), time);
     let pair = pairs.get(place);
-    let is_ghost = |k: usize| {
+    let left = |k: usize| {
         let contact = &pair.contacts[k];
         let (ends, shapes) = (pair.bodies, pair.colliders);
-        Meeting::of(bodies, ends, shapes, contact.parts, contact.normal)
-            .is_some_and(|meeting| meeting.is_ghost(bodies, pairs, time))
+        let meeting = Meeting::of(bodies, ends, shapes, contact.parts, contact.normal)?;
+        match meeting.left(bodies, pairs, time) {
+            Left::All => None,
+            Left::Nothing => Some((k, None)),
+            Left::Side(out) => Some((k, Some(meeting.facing(out, contact.normal)))),
+        }
     };
-    let ghosts: Vec<usize> = (0..pair.contacts.len()).filter(|k| is_ghost(*k)).collect();
+    let changed: Vec<_> = (0..pair.contacts.len()).filter_map(left).collect();
     let pair = pairs.get_mut(place);
-    if ghosts.is_empty() {
+    if changed.is_empty() {
         return pair;
     }
-    for k in ghosts.into_iter().rev() {
-        pair.contacts.remove(k);
+    for (k, normal) in changed.into_iter().rev() {
+        match normal {
+            Some(normal) => pair.contacts[k].normal = normal,
+            None => drop(pair.contacts.remove(k)),
+        }
     }
     note_touch(bodies, pair, time);
     pair

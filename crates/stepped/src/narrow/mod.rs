@@ -48,7 +48,7 @@ impl Manifold {
         }
     }
 
-    pub(super) fn single(normal: Vec2, arms: [Vec2; 2], gap: f64) -> Self {
+    pub(crate) fn single(normal: Vec2, arms: [Vec2; 2], gap: f64) -> Self {
         Self {
             normal,
             arm_a: cross(arms[0], normal),

@@ -7,6 +7,7 @@ use super::colour::Colour;
 use super::graph::{ASLEEP, Graph, HARD};
 use crate::Surface;
 use crate::bodies::Bodies;
+use crate::narrow::Manifold;
 
 impl Graph {
     /// The block and lane of a contact.
@@ -187,6 +188,14 @@ impl Graph {
                 *pushes = block.pushing();
             }
         }
+    }
+
+    /// Gives a contact another place until it is computed anew; it starts without impulses.
+    pub(crate) fn put_anew(&mut self, bodies: &mut Bodies, id: u32, manifold: &Manifold) {
+        self.clear_warm_start(bodies, id);
+        let (colour, k, lane) = self.colour_mut(id);
+        colour.blocks[k].put(lane, manifold);
+        colour.cold[k].hidden[lane] = [0.0; 2];
     }
 
     /// Lets a contact do nothing until it is computed anew.

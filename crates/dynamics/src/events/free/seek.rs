@@ -15,7 +15,7 @@ use super::strike::approach_speed;
 use super::turning::first_piece;
 use crate::broad::window::{Window, ways_from};
 use crate::model::approach::CLOSED;
-use crate::model::ghost::Meeting;
+use crate::model::ghost::{Left, Meeting};
 use crate::model::graph::pair_of;
 use crate::model::narrow::{TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
 use crate::motion::first_touch::{first_touch, first_touch_of_parts, parts_in_way};
@@ -177,7 +177,8 @@ impl World {
                 return true;
             }
         }
-        let Some(impact) = impact.filter(|found| !self.passes((a, b), shapes, found, time)) else {
+        let seen = |found| self.seen_from_support((a, b), shapes, found, time);
+        let Some(impact) = impact.and_then(seen) else {
             return false;
         };
         let foreseen = Foreseen::of((a, b), shapes, &impact);
@@ -240,22 +241,35 @@ impl World {
         self.land_both(ends, time);
     }
 
-    /// Whether one of two bodies slides over the side of the other that the impact is on: the side that bears it is flush with that.
-    fn passes(
+    /// An impact as the side sees it that bears one of two bodies: `None` where the side that it is on is flush with that, and where it is
+    /// on the tip of a ramp that goes up from there the ramp's side.
+    fn seen_from_support(
         &self,
         ends: Two<BodyIx>,
         shapes: Two<ColliderIx>,
-        impact: &Impact,
+        impact: Impact,
         time: SimTime,
-    ) -> bool {
-        if self.moving_end(ends).is_none() {
-            return false;
-        }
+    ) -> Option<Impact> {
         let parts = impact.features[0].parts;
-        Meeting::of(&self.bodies, ends, shapes, parts, impact.normal).is_some_and(|meeting| {
-            let at = time + impact.time;
-            meeting.is_ghost(&self.bodies, &self.pairs, at)
-        })
+        let meeting = self
+            .moving_end(ends)
+            .and_then(|_| Meeting::of(&self.bodies, ends, shapes, parts, impact.normal));
+        let at = time + impact.time;
+        let left = meeting.map(|meeting| (meeting, meeting.left(&self.bodies, &self.pairs, at)));
+        match left {
+            None | Some((_, Left::All)) => Some(impact),
+            Some((_, Left::Nothing)) => None,
+            Some((meeting, Left::Side(out))) => {
+                let (one, two) = self.bodies.both(ends);
+                let normal = meeting.facing(out, impact.normal);
+                let gap_rate = opening_speed(one, two, at, impact.points[0], normal);
+                (gap_rate < 0.0).then_some(Impact {
+                    normal,
+                    gap_rate,
+                    ..impact
+                })
+            }
+        }
     }
 
     /// Whether the gap that an impact with a loss waits for is no more than rounding made of none.
@@ -375,12 +389,19 @@ impl World {
                 let next = first_touch_of_parts([one, two], parts, time, length);
                 #[expect(clippy::cast_possible_truncation, reason = "parts of a shape")]
                 let next = next.of_parts((i as u32, j as u32));
+                let seen = |found: Impact| {
+                    let found = (!is_slow(&found)).then_some(found)?;
+                    self.seen_from_support(ends, shapes, found, time)
+                };
                 match next {
-                    TimeOfImpact::Hit(found) | TimeOfImpact::Touching(found)
-                        if is_slow(&found) || self.passes(ends, shapes, &found, time) =>
-                    {
-                        again = self.clock.h.min(again);
-                    }
+                    TimeOfImpact::Hit(found) => match seen(found) {
+                        Some(found) => first = earlier(first, TimeOfImpact::Hit(found)),
+                        None => again = self.clock.h.min(again),
+                    },
+                    TimeOfImpact::Touching(found) => match seen(found) {
+                        Some(found) => first = earlier(first, TimeOfImpact::Touching(found)),
+                        None => again = self.clock.h.min(again),
+                    },
                     TimeOfImpact::Unresolved { .. } if self.opens_now(place, (i, j), time) => {
                         again = OPENED * self.clock.h;
                     }
