@@ -158,6 +158,11 @@ impl World {
             TimeOfImpact::Clear => (f64::INFINITY, None),
             TimeOfImpact::Hit(impact) => (impact.time, Some(impact)),
             TimeOfImpact::Touching(impact) => (0.0, Some(impact)),
+            // What spins too fast in the air would be sought for so without end.
+            TimeOfImpact::Unresolved { .. } if self.moving_end((a, b)).is_none() => {
+                self.leave_unresolved((a, b), time);
+                return true;
+            }
             TimeOfImpact::Unresolved { safe_until } => {
                 self.seek_on((a, b), shapes, (time, safe_until));
                 return true;
