@@ -14,7 +14,7 @@ use crate::{BodyIx, IslandIx, Mode, World};
 /// Sub-steps within which what a landing opens comes back, if it counts as closed. With 1 boxes that rock take 1.2 of the time.
 const BACK: f64 = 4.0;
 
-/// Part of the rest speed above which a corner that comes down so soon was not opened by that landing: the far end of a capsule that falls
+/// Times the rest speed above which a corner that comes down so soon was not opened by that landing: the far end of a capsule that falls
 /// flat follows its near end at once. The corner of a body on another one is pulled by up to 1.5 g.
 const SLOW: f64 = 2.0;
 

@@ -7,7 +7,7 @@ use fearless_simd::Level;
 use crate::bodies::{Bodies, BodyKind};
 use crate::broad::{Broad, Pairs};
 use crate::continuous::{FastBody, note_fast};
-use crate::ghost::hide;
+use crate::ghost;
 use crate::hard::HardRows;
 use crate::impact::Impacts;
 use crate::narrow::Scene;
@@ -350,7 +350,7 @@ impl Engine {
             self.part(id);
         }
         self.parted = parted;
-        hide(&mut self.graph, &mut self.bodies, &self.pieces);
+        ghost::filter(&mut self.graph, &mut self.bodies, &self.pieces);
         self.bodies.moved.fill(false);
         self.bodies.updates += 1;
     }

@@ -113,8 +113,8 @@ struct Row {
     is_tip: bool,
 }
 
-/// Hides rows of moved bodies until they are computed anew.
-pub(crate) fn hide(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
+/// Takes ghosts out of the rows of moved bodies until these are computed anew: they are hidden, or put on the side that is exposed.
+pub(crate) fn filter(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
     let mut rows: Vec<Row> = Vec::new();
     let (mut ghosts, mut sides) = (Vec::new(), BTreeMap::new());
     let suspects = graph.suspects.contacts();
@@ -138,13 +138,13 @@ pub(crate) fn hide(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
             if let Some(k) = rows.iter().position(|row| row.contact == contact) {
                 rows[k].end_near(pieces);
                 let row = &rows[k];
-                let seen = rows
+                let exposed = rows
                     .iter()
-                    .map(|other| seen_over(&rows, pieces, row, other));
-                match seen.fold(Seen::Whole, Seen::less) {
-                    Seen::Whole => {}
-                    Seen::Nothing => ghosts.push(contact),
-                    Seen::Side(side) => {
+                    .map(|other| exposed_over(&rows, pieces, row, other));
+                match exposed.fold(Exposed::Whole, Exposed::less) {
+                    Exposed::Whole => {}
+                    Exposed::Nothing => ghosts.push(contact),
+                    Exposed::Side(side) => {
                         ghosts.push(contact);
                         sides.insert(contact, row.on_side(graph, pieces, side));
                     }
@@ -162,16 +162,16 @@ pub(crate) fn hide(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
     }
 }
 
-/// What of the piece P of a row is seen from above the plane of another one.
+/// What of the piece P of a row a body can touch that is in front of the plane of another one.
 #[derive(Clone, Copy)]
-enum Seen {
+enum Exposed {
     Whole,
     /// The side that goes up from where the row is, by its number.
     Side(usize),
     Nothing,
 }
 
-impl Seen {
+impl Exposed {
     const fn less(self, other: Self) -> Self {
         match (self, other) {
             (Self::Nothing, _) | (_, Self::Nothing) => Self::Nothing,
@@ -181,9 +181,9 @@ impl Seen {
     }
 }
 
-/// What is seen of the piece P of a row from above the plane of another one: nothing if all of P lies behind that, and one side where the
+/// What is exposed of the piece P of a row over the plane of another one: nothing if all of P lies behind that, and one side where the
 /// side with the row's normal does, if beyond the points another piece goes on.
-fn seen_over(rows: &[Row], pieces: &Pieces, row: &Row, other: &Row) -> Seen {
+fn exposed_over(rows: &[Row], pieces: &Pieces, row: &Row, other: &Row) -> Exposed {
     let (normal, plane) = (row.normal, other.normal);
     let along = normal.dot(plane);
     let flush = row.flush.min(other.flush);
@@ -193,29 +193,29 @@ fn seen_over(rows: &[Row], pieces: &Pieces, row: &Row, other: &Row) -> Seen {
         || along * along > 1.0 - LEANS * LEANS
         || row.points.iter().any(|point| height(*point) > flush)
     {
-        return Seen::Whole;
+        return Exposed::Whole;
     }
     let p = pieces.outline(row.piece);
     if row.piece == other.piece || !has_sides(p) {
-        return Seen::Whole;
+        return Exposed::Whole;
     }
     let count = p.corners();
     let is_behind = |i: usize| height(p.centre() + p.corner(i % count)) + p.radius() <= flush;
-    let seen = if (0..count).all(is_behind) {
-        Seen::Nothing
+    let exposed = if (0..count).all(is_behind) {
+        Exposed::Nothing
     } else if row.is_tip {
         let goes_up = |i: &usize| is_behind(*i) != is_behind(i + 1);
         let facing = |i: usize| p.normal(i).dot(normal);
         let sides = (0..count).filter(goes_up).map(|i| (facing(i), i));
         match sides.max_by(|x, y| x.0.total_cmp(&y.0)) {
-            // The row's own side is seen.
+            // The row's own side is exposed.
             Some((facing, side)) if facing > LEANS && facing < 1.0 - LEANS * LEANS => {
-                Seen::Side(side)
+                Exposed::Side(side)
             }
-            _ => return Seen::Whole,
+            _ => return Exposed::Whole,
         }
     } else {
-        return Seen::Whole;
+        return Exposed::Whole;
     };
     let lean = normal - plane * along;
     let lean = lean * (10.0 * flush / lean.length());
@@ -230,9 +230,9 @@ fn seen_over(rows: &[Row], pieces: &Pieces, row: &Row, other: &Row) -> Seen {
         })
     };
     if row.points.iter().all(goes_on) {
-        seen
+        exposed
     } else {
-        Seen::Whole
+        Exposed::Whole
     }
 }
 

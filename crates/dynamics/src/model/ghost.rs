@@ -7,8 +7,8 @@
 //! serves tiles.)
 //!
 //! A piece that stands out of the plane by more than [`TOUCH`] is no ghost: steps of a micrometre, inner corners and ramps
-//! stay. But what touches of it below the plane is not there: at the tip of a ramp that stays which goes up from there. So
-//! do the ends of a floor: a body that tips over them is behind the plane.
+//! stay. So do the ends of a floor: a body that tips over them is behind the plane. But of what stands out only the sides
+//! above the plane are there: at the tip of a ramp the one that goes up from it.
 
 use carom_collision::{Hull, contacts};
 use carom_math::{Pose, SimTime, Vec2, cross};
@@ -25,21 +25,21 @@ const ALONG: f64 = 1e-6;
 
 /// What of a piece a body can touch that lies on a face of another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Left {
+pub(crate) enum Exposed {
     /// What it touches.
-    All,
+    Whole,
     /// Of the tip of a ramp, the side that goes up: its outward unit normal.
     Side(Vec2),
     /// All of it lies behind the face.
     Nothing,
 }
 
-impl Left {
+impl Exposed {
     const fn less(self, other: Self) -> Self {
         match (self, other) {
             (Self::Nothing, _) | (_, Self::Nothing) => Self::Nothing,
             (Self::Side(_), _) => self,
-            (Self::All, _) => other,
+            (Self::Whole, _) => other,
         }
     }
 }
@@ -82,8 +82,8 @@ impl Meeting {
         })
     }
 
-    /// What a face of another piece, which the body touches at `time` and which parts the two along another normal, leaves of the piece.
-    pub(crate) fn left(&self, bodies: &Bodies, pairs: &Pairs, time: SimTime) -> Left {
+    /// What is exposed of the piece where the body lies on a face of another one, which parts the two along another normal, at `time`.
+    pub(crate) fn exposed(&self, bodies: &Bodies, pairs: &Pairs, time: SimTime) -> Exposed {
         let body = bodies.get(self.body);
         let hull = |(collider, number): (ColliderIx, u32)| bodies.hull(collider, number);
         let pose_of = |collider: ColliderIx| {
@@ -97,18 +97,18 @@ impl Meeting {
         };
         let mut found = Vec::new();
         let pairs = body.pairs.iter().map(|place| pairs.get(*place));
-        let left = pairs.filter(|pair| bears(pair)).map(|pair| {
+        let exposed = pairs.filter(|pair| bears(pair)).map(|pair| {
             let (mine, base) = pair.shapes_from(self.body);
             let (pose, base_pose) = (pose_of(mine), pose_of(base));
             let solid = |collider: ColliderIx| &*bodies.colliders[collider].solid;
             found.clear();
             let seen = pose.seen_from(base_pose);
             contacts(solid(base), solid(mine), seen, touch, &mut found);
-            let left = found.iter().map(|contact| {
+            let exposed = found.iter().map(|contact| {
                 let normal = base_pose.vector(contact.manifold.normal);
                 let at = (base, contact.part_a);
                 let Some(level) = level_of_face(&hull(at), base_pose, normal) else {
-                    return Left::All;
+                    return Exposed::Whole;
                 };
                 let depth = contact.manifold.deepest().map_or(0.0, |gap| -gap).max(0.0);
                 let (piece, piece_pose) = (hull(self.piece), pose_of(self.piece.0));
@@ -116,17 +116,17 @@ impl Meeting {
                     || self.is_along(normal)
                     || -top(&hull(self.own), pose, -normal) < level - depth - touch
                 {
-                    Left::All
+                    Exposed::Whole
                 } else if top(&piece, piece_pose, normal) <= level + touch {
-                    Left::Nothing
+                    Exposed::Nothing
                 } else {
                     self.side_above(&piece, piece_pose, (normal, level + touch), touch)
-                        .map_or(Left::All, Left::Side)
+                        .map_or(Exposed::Whole, Exposed::Side)
                 }
             });
-            left.fold(Left::All, Left::less)
+            exposed.fold(Exposed::Whole, Exposed::less)
         });
-        left.fold(Left::All, Left::less)
+        exposed.fold(Exposed::Whole, Exposed::less)
     }
 
     /// Of a piece that touches the body below a plane alone, but stands out of it, the side that goes up from there: its unit normal.
@@ -141,9 +141,9 @@ impl Meeting {
             return None;
         }
         let height = |i: usize| pose.point(piece.vertices[i]).dot(normal);
-        let farthest = piece.support(pose.inverse_vector(self.out)).1;
-        let touches =
-            |i: usize| farthest - piece.vertices[i].dot(pose.inverse_vector(self.out)) <= touch;
+        let out = pose.inverse_vector(self.out);
+        let farthest = piece.support(out).1;
+        let touches = |i: usize| farthest - piece.vertices[i].dot(out) <= touch;
         let count = piece.vertices.len();
         if (0..count).any(|i| touches(i) && height(i) > level) {
             return None;
@@ -194,17 +194,17 @@ pub(crate) fn look_at<'a>(
 ) -> &'a mut Pair {
     look(bodies, pairs.get_mut(place), time);
     let pair = pairs.get(place);
-    let left = |k: usize| {
+    let change = |k: usize| {
         let contact = &pair.contacts[k];
         let (ends, shapes) = (pair.bodies, pair.colliders);
         let meeting = Meeting::of(bodies, ends, shapes, contact.parts, contact.normal)?;
-        match meeting.left(bodies, pairs, time) {
-            Left::All => None,
-            Left::Nothing => Some((k, None)),
-            Left::Side(out) => Some((k, Some(meeting.facing(out, contact.normal)))),
+        match meeting.exposed(bodies, pairs, time) {
+            Exposed::Whole => None,
+            Exposed::Nothing => Some((k, None)),
+            Exposed::Side(out) => Some((k, Some(meeting.facing(out, contact.normal)))),
         }
     };
-    let changed: Vec<_> = (0..pair.contacts.len()).filter_map(left).collect();
+    let changed: Vec<_> = (0..pair.contacts.len()).filter_map(change).collect();
     let pair = pairs.get_mut(place);
     if changed.is_empty() {
         return pair;

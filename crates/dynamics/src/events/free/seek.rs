@@ -15,7 +15,7 @@ use super::strike::approach_speed;
 use super::turning::first_piece;
 use crate::broad::window::{Window, ways_from};
 use crate::model::approach::CLOSED;
-use crate::model::ghost::{Left, Meeting};
+use crate::model::ghost::{Exposed, Meeting};
 use crate::model::graph::pair_of;
 use crate::model::narrow::{TOUCH, opening_speed, pace, rest_speed, rest_speed_between};
 use crate::motion::first_touch::{first_touch, first_touch_of_parts, parts_in_way};
@@ -158,11 +158,6 @@ impl World {
             TimeOfImpact::Clear => (f64::INFINITY, None),
             TimeOfImpact::Hit(impact) => (impact.time, Some(impact)),
             TimeOfImpact::Touching(impact) => (0.0, Some(impact)),
-            // What spins too fast in the air would be sought for so without end.
-            TimeOfImpact::Unresolved { .. } if self.moving_end((a, b)).is_none() => {
-                self.leave_unresolved((a, b), time);
-                return true;
-            }
             TimeOfImpact::Unresolved { safe_until } => {
                 self.seek_on((a, b), shapes, (time, safe_until));
                 return true;
@@ -225,15 +220,15 @@ impl World {
         }
     }
 
-    /// A search that gave up after `safe_until` seconds goes on from there, where what opens has a larger gap; one that came nowhere
-    /// leaves two bodies to the engine.
+    /// A search of what a mode moves that gave up after `safe_until` seconds goes on from there, where what opens has a larger gap. One
+    /// that came nowhere leaves two bodies to the engine, and so does one in the air: what spins fast would be sought without end.
     fn seek_on(
         &mut self,
         ends: Two<BodyIx>,
         shapes: Two<ColliderIx>,
         (time, safe_until): (SimTime, f64),
     ) {
-        if safe_until > FARTHER * self.clock.h {
+        if self.moving_end(ends).is_some() && safe_until > FARTHER * self.clock.h {
             self.look_again(ends, shapes, time + safe_until);
         } else {
             self.leave_unresolved(ends, time);
@@ -259,12 +254,14 @@ impl World {
         let meeting = self
             .moving_end(ends)
             .and_then(|_| Meeting::of(&self.bodies, ends, shapes, parts, impact.normal));
+        let Some(meeting) = meeting else {
+            return Some(impact);
+        };
         let at = time + impact.time;
-        let left = meeting.map(|meeting| (meeting, meeting.left(&self.bodies, &self.pairs, at)));
-        match left {
-            None | Some((_, Left::All)) => Some(impact),
-            Some((_, Left::Nothing)) => None,
-            Some((meeting, Left::Side(out))) => {
+        match meeting.exposed(&self.bodies, &self.pairs, at) {
+            Exposed::Whole => Some(impact),
+            Exposed::Nothing => None,
+            Exposed::Side(out) => {
                 let (one, two) = self.bodies.both(ends);
                 let normal = meeting.facing(out, impact.normal);
                 let gap_rate = opening_speed(one, two, at, impact.points[0], normal);
@@ -398,19 +395,19 @@ impl World {
                     let found = (!is_slow(&found)).then_some(found)?;
                     self.seen_from_support(ends, shapes, found, time)
                 };
+                let next = match next {
+                    TimeOfImpact::Hit(found) => seen(found).map(TimeOfImpact::Hit),
+                    TimeOfImpact::Touching(found) => seen(found).map(TimeOfImpact::Touching),
+                    next => Some(next),
+                };
                 match next {
-                    TimeOfImpact::Hit(found) => match seen(found) {
-                        Some(found) => first = earlier(first, TimeOfImpact::Hit(found)),
-                        None => again = self.clock.h.min(again),
-                    },
-                    TimeOfImpact::Touching(found) => match seen(found) {
-                        Some(found) => first = earlier(first, TimeOfImpact::Touching(found)),
-                        None => again = self.clock.h.min(again),
-                    },
-                    TimeOfImpact::Unresolved { .. } if self.opens_now(place, (i, j), time) => {
+                    None => again = self.clock.h.min(again),
+                    Some(TimeOfImpact::Unresolved { .. })
+                        if self.opens_now(place, (i, j), time) =>
+                    {
                         again = OPENED * self.clock.h;
                     }
-                    next => first = earlier(first, next),
+                    Some(next) => first = earlier(first, next),
                 }
             }
         }
