@@ -4,7 +4,7 @@
 use carom_dynamics::geometry::Polygon;
 use carom_dynamics::{BodyDef, Material, Settings, World};
 use carom_math::vec2;
-use carom_tests::scenes::{block, put};
+use carom_tests::scenes::{floor, put};
 
 #[test]
 fn a_corner_of_two_parts_bears_once() {
@@ -21,8 +21,7 @@ fn a_corner_of_two_parts_bears_once() {
     let shape = Polygon::new(ring.map(|(x, y)| vec2(x, y))).expect("a U");
     for k in 0..30 {
         let mut world = World::new(Settings::default()).expect("valid settings");
-        let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
-        put(&mut world, floor, block(100.0, 2.0), Material::default());
+        floor(&mut world, Material::default());
         let def = BodyDef {
             angle: 0.1 * f64::from(k) - 1.47,
             ..BodyDef::dynamic().at(vec2(0.0, 1.2))

@@ -1,9 +1,9 @@
 //! A box that tips over a corner and comes down on the end of a shorter plate: its side meets that end. The other corner, which is beyond
 //! the plate, was struck in the air, and the box stood still at once: 1.9 J lost where it is 0.78 J, and the report said exact.
 
-use carom_dynamics::{BodyDef, Material, Mode, Settings, World};
+use carom_dynamics::{BodyDef, Mode, Settings, World};
 use carom_math::{Rot, vec2};
-use carom_tests::scenes::{block, put};
+use carom_tests::scenes::{block, put, surface};
 
 #[test]
 fn a_side_turns_about_the_end_of_an_edge() {
@@ -28,10 +28,7 @@ fn a_side_turns_about_the_end_of_an_edge() {
             ..Settings::default()
         })
         .expect("valid settings");
-        let rough = Material {
-            friction: 1.5,
-            ..Material::default()
-        };
+        let rough = surface(0.0, 1.5);
         let plate = BodyDef::fixed().at(vec2(0.0, -0.5));
         put(&mut world, plate, block(1.0, 1.0), rough);
         let centre = vec2(0.5 - end, 0.0) + Rot::from_angle(angle) * way;

@@ -4,7 +4,7 @@
 use carom_dynamics::geometry::{Polygon, Shape};
 use carom_dynamics::{BodyDef, Material, Settings, World};
 use carom_math::{Vec2, vec2};
-use carom_tests::scenes::{block, put};
+use carom_tests::scenes::{block, floor};
 
 #[test]
 fn concave_bodies_come_to_rest_by_rocking() {
@@ -24,8 +24,7 @@ fn concave_bodies_come_to_rest_by_rocking() {
     ] {
         for angle in [-0.34, 0.5, 0.9, 1.2] {
             let mut world = World::new(Settings::default()).expect("valid settings");
-            let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
-            put(&mut world, floor, block(100.0, 2.0), Material::default());
+            floor(&mut world, Material::default());
             let def = BodyDef {
                 angle,
                 ..BodyDef::dynamic().at(vec2(0.0, 1.2))

@@ -4,7 +4,7 @@
 use carom_dynamics::{BodyDef, Material, Settings, World};
 use carom_geometry::{Circle, Shape};
 use carom_math::vec2;
-use carom_tests::scenes::{block, put};
+use carom_tests::scenes::{block, floor};
 
 #[test]
 fn the_far_end_of_a_capsule_strikes() {
@@ -16,8 +16,7 @@ fn the_far_end_of_a_capsule_strikes() {
     ];
     for k in 0..12 {
         let mut world = World::new(Settings::default()).expect("valid settings");
-        let floor = BodyDef::fixed().at(vec2(0.0, -1.0));
-        put(&mut world, floor, block(100.0, 2.0), Material::default());
+        floor(&mut world, Material::default());
         let def = BodyDef {
             angle: 0.1 + 0.1 * f64::from(k),
             ..BodyDef::dynamic().at(vec2(0.0, 1.2))

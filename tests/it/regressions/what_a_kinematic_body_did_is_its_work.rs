@@ -3,7 +3,7 @@
 
 use carom_dynamics::{BodyDef, EnergyLedger, Material, Mode, Settings, World};
 use carom_math::{Vec2, vec2};
-use carom_tests::scenes::{block, put};
+use carom_tests::scenes::{block, put, surface};
 
 /// What a second changes in the ledger once half a second has passed: (from outside, friction, mechanical, by the scheme), in J.
 fn second(world: &mut World) -> [f64; 4] {
@@ -51,10 +51,7 @@ fn what_a_kinematic_body_did_is_its_work() {
         assert!(friction.abs() < 1e-5 * work && scheme.abs() < 1e-5 * work);
 
         let mut push = stand(BodyDef::fixed(), Vec2::ZERO, 1);
-        let smooth = Material {
-            friction: 0.0,
-            ..Material::default()
-        };
+        let smooth = surface(0.0, 0.0);
         let def = BodyDef::kinematic().at(vec2(-1.0, 0.5));
         put(
             &mut push,

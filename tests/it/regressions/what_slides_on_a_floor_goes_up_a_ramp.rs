@@ -3,9 +3,9 @@
 //! and ramp are flush blocks side by side.
 
 use carom_dynamics::geometry::Polygon;
-use carom_dynamics::{BodyDef, Material, Mode, Settings, World};
+use carom_dynamics::{BodyDef, Mode, Settings, World};
 use carom_math::{Rot, Vec2, vec2};
-use carom_tests::scenes::{block, put};
+use carom_tests::scenes::{block, put, surface};
 
 /// Velocity 0.4 s after the box has met the ramp, in m/s.
 fn velocity(mode: Mode, ground: &[Vec<Vec2>]) -> Vec2 {
@@ -14,10 +14,7 @@ fn velocity(mode: Mode, ground: &[Vec<Vec2>]) -> Vec2 {
         ..Settings::default()
     };
     let mut world = World::new(settings).expect("valid settings");
-    let smooth = Material {
-        friction: 0.0,
-        ..Material::default()
-    };
+    let smooth = surface(0.0, 0.0);
     for ring in ground {
         let shape = Polygon::new(ring.clone()).expect("a ground");
         put(&mut world, BodyDef::fixed(), shape, smooth);
@@ -67,6 +64,7 @@ fn what_slides_on_a_floor_goes_up_a_ramp() {
             for (mode, bound) in [
                 (Mode::Exact, 1e-9),
                 (Mode::Hybrid, 1e-9),
+                // To first order in the sub-step.
                 (Mode::Stepped, 0.09),
             ] {
                 let found = velocity(mode, &ground);
