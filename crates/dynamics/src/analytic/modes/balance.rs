@@ -11,7 +11,7 @@
 
 use super::NotMine;
 use super::faces::{Face, Faces, Row};
-use crate::impact::dense::{Factored, dot};
+use crate::impact::dense::dot;
 use crate::impact::lemke::{Solution, complementary};
 
 /// Accelerations below this part of what they are the difference of are none.
@@ -35,8 +35,6 @@ pub(super) struct Balance {
     pub(super) state: Vec<f64>,
     /// Of each touch.
     pub(super) reactions: Vec<Reaction>,
-    /// Unknowns that the basis solves for.
-    pub(super) basic: Vec<bool>,
 }
 
 /// Forces of a touch, and what they hold.
@@ -66,7 +64,7 @@ pub(super) fn balance(faces: &Faces, tangents: &[Tangent]) -> Result<Balance, No
 }
 
 /// The complementarity problem of one configuration, w = M z + q: a unit of unknown j adds column j to the accelerations.
-pub(super) struct Problem<'a> {
+struct Problem<'a> {
     faces: &'a Faces,
     tangents: &'a [Tangent],
     unknowns: Vec<Unknown>,
@@ -75,15 +73,8 @@ pub(super) struct Problem<'a> {
     q: Vec<f64>,
 }
 
-/// What a basis gives: the unknowns that it solves for, the complements of the others, and scaled accelerations.
-pub(super) struct Basic {
-    /// z of an unknown of the basis, w of another one: all are at least 0 where the basis is that of a solution.
-    pub(super) margins: Vec<f64>,
-    pub(super) state: Vec<f64>,
-}
-
 impl<'a> Problem<'a> {
-    pub(super) fn of(faces: &'a Faces, tangents: &'a [Tangent]) -> Result<Self, NotMine> {
+    fn of(faces: &'a Faces, tangents: &'a [Tangent]) -> Result<Self, NotMine> {
         let unknowns = unknowns(faces, tangents);
         let size = faces.free.len();
         let mut columns = vec![0.0; size * unknowns.len()];
@@ -123,7 +114,7 @@ impl<'a> Problem<'a> {
         )
     }
 
-    pub(super) fn solve(&self) -> Result<Balance, NotMine> {
+    fn solve(&self) -> Result<Balance, NotMine> {
         let count = self.unknowns.len();
         let mut m = Vec::with_capacity(count * count);
         for i in 0..count {
@@ -135,11 +126,10 @@ impl<'a> Problem<'a> {
         } else {
             NotMine::Unsolved
         };
-        let Solution { z, basic } = complementary(&m, &self.q).ok_or(failed)?;
+        let Solution { z, .. } = complementary(&m, &self.q).ok_or(failed)?;
         let sizes = self.sum(&z, f64::abs);
         let state = (self.sum(&z, |x| x), &*sizes);
-        let found = read(self.faces, self.tangents, &self.unknowns, &z, state);
-        found.map(|found| Balance { basic, ..found }).ok_or(failed)
+        read(self.faces, self.tangents, &self.unknowns, &z, state).ok_or(failed)
     }
 
     /// Accelerations for these unknowns, or the sum of the sizes of their parts.
@@ -151,34 +141,6 @@ impl<'a> Problem<'a> {
             }
         }
         sum
-    }
-
-    /// What the basis of another configuration gives in this one; `None` where its unknowns depend on each other.
-    pub(super) fn with_basis(&self, basic: &[bool]) -> Option<Basic> {
-        let count = self.unknowns.len();
-        let held: Vec<usize> = (0..count).filter(|&i| basic[i]).collect();
-        let square = held.iter().flat_map(|&i| held.iter().map(move |&j| (i, j)));
-        let entries = square.map(|(i, j)| self.entry(i, j));
-        let factored = Factored::of(held.len(), entries)?;
-        if factored.least_pivot() <= f64::EPSILON {
-            return None;
-        }
-        let right: Vec<f64> = held.iter().map(|&i| -self.q[i]).collect();
-        let mut z = vec![0.0; count];
-        for (&i, value) in held.iter().zip(factored.solve(&right)) {
-            z[i] = value;
-        }
-        let margin = |i: usize| {
-            if basic[i] {
-                return z[i];
-            }
-            let parts = held.iter().map(|&j| self.entry(i, j) * z[j]);
-            self.q[i] + parts.sum::<f64>()
-        };
-        Some(Basic {
-            margins: (0..count).map(margin).collect(),
-            state: self.sum(&z, |x| x),
-        })
     }
 }
 
@@ -252,7 +214,6 @@ fn read(
     let mut found = Balance {
         state,
         reactions: vec![Reaction::default(); faces.list.len()],
-        basic: Vec::new(),
     };
     for (unknown, z) in unknowns.iter().zip(z) {
         match *unknown {

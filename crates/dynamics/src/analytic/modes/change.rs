@@ -1,7 +1,7 @@
 //! The next change of a mode, from roots of quadratics.
 
 use super::alone;
-use super::balance::{Balance, Basic, Problem, Tangent};
+use super::balance::{Balance, Tangent, balance};
 use super::faces::Faces;
 use super::{BodyMove, Feature, Touch, slip_rate};
 use crate::impact::ImpactBody;
@@ -15,9 +15,6 @@ const LOOKS: u32 = 8;
 
 /// Accelerations that differ by more than this part belong to another motion.
 pub(super) const SAME: f64 = 1e-12;
-
-/// A force or an opening below this part of the largest one is rounding.
-const NOTHING: f64 = 1e-12;
 
 /// Halvings of a stretch after which an instant is as near as it comes.
 const HALVINGS: u32 = 60;
@@ -154,21 +151,20 @@ impl Load<'_> {
     /// The first instant from which on the forces need another motion, seen at these `looks`.
     pub(super) fn first_other_motion(&self, looks: impl IntoIterator<Item = f64>) -> Option<f64> {
         let mut good = 0.0;
-        let mut basis = self.found.basic.clone();
         for look in looks {
-            if !self.goes_on(look, &mut basis) {
-                return Some(self.other_between(good, look, basis));
+            if !self.goes_on(look) {
+                return Some(self.other_between(good, look));
             }
             good = look;
         }
         None
     }
 
-    /// The same between an instant from which it goes on with a basis, and one at which it does not.
-    fn other_between(&self, mut good: f64, mut bad: f64, mut basis: Vec<bool>) -> f64 {
+    /// The same between an instant at which it goes on, and one at which it does not.
+    fn other_between(&self, mut good: f64, mut bad: f64) -> f64 {
         for _ in 0..HALVINGS {
             let middle = 0.5 * (good + bad);
-            if self.goes_on(middle, &mut basis) {
+            if self.goes_on(middle) {
                 good = middle;
             } else {
                 bad = middle;
@@ -177,26 +173,11 @@ impl Load<'_> {
         bad
     }
 
-    /// Whether the accelerations are the same where the load is then: with this basis, or with the one that takes its place.
-    fn goes_on(&self, after: f64, basis: &mut Vec<bool>) -> bool {
+    /// Whether the accelerations are the same where the load is then.
+    fn goes_on(&self, after: f64) -> bool {
         let faces = self.faces_at(after);
-        let Ok(problem) = Problem::of(&faces, self.tangents) else {
-            return false;
-        };
-        if let Some(Basic { margins, state }) = problem.with_basis(basis)
-            && fallen(&margins).is_none()
-            && self.differs(&faces, &state) <= SAME
-        {
-            return true;
-        }
-        let Ok(then) = problem.solve() else {
-            return false;
-        };
-        let same = self.differs(&faces, &then.state) <= SAME;
-        if same {
-            *basis = then.basic;
-        }
-        same
+        let then = balance(&faces, self.tangents);
+        then.is_ok_and(|then| self.differs(&faces, &then.state) <= SAME)
     }
 
     /// By what part the accelerations are others.
@@ -234,11 +215,4 @@ impl Load<'_> {
         });
         (bodies.collect(), touches.collect())
     }
-}
-
-/// The least margin, if it is below 0 by more than rounding.
-fn fallen(margins: &[f64]) -> Option<usize> {
-    let size = margins.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let least = (0..margins.len()).min_by(|&i, &j| margins[i].total_cmp(&margins[j]))?;
-    (margins[least] < -NOTHING * size).then_some(least)
 }
