@@ -211,31 +211,20 @@ impl Collocated {
         let last = self.terms.iter().zip(&self.scales);
         let most = last.map(|(terms, scale)| (terms[7] * scale).abs());
         let most = most.fold(0.0, f64::max) * self.length * self.length / 72.0;
-        self.left(self.length).map_or(most, |left| most * left[9])
+        most * self.left(self.length)[9]
     }
 
-    /// What damping leaves `t` seconds on, if there is any.
-    fn left(&self, t: f64) -> Option<[f64; 10]> {
-        (self.damping != 0.0).then(|| left_by_damping(self.damping * t))
+    /// What damping leaves `t` seconds on.
+    fn left(&self, t: f64) -> [f64; 10] {
+        if self.damping == 0.0 {
+            [1.0; 10]
+        } else {
+            left_by_damping(self.damping * t)
+        }
     }
 
-    fn coordinate(&self, k: usize, t: f64, left: Option<&[f64; 10]>) -> (f64, f64) {
+    fn coordinate(&self, k: usize, t: f64, left: &[f64; 10]) -> (f64, f64) {
         let tau = t / self.length;
-        if let Some(left) = left {
-            return self.damped_coordinate(k, t, tau, left);
-        }
-        let (mut v, mut x) = (0.0, 0.0);
-        for [once, twice] in self.integrals[k].iter().rev() {
-            v = v * tau + once;
-            x = x * tau + twice;
-        }
-        (
-            self.place[k] + (self.velocity[k] + x * t) * t,
-            self.velocity[k] + v * t,
-        )
-    }
-
-    fn damped_coordinate(&self, k: usize, t: f64, tau: f64, left: &[f64; 10]) -> (f64, f64) {
         let (mut v, mut x) = (0.0, 0.0);
         for (n, [once, twice]) in self.integrals[k].iter().enumerate().rev() {
             v = v * tau + once * left[n + 1];
@@ -275,7 +264,7 @@ impl Path for Collocated {
             );
         }
         let left = self.left(t);
-        let coordinate = |k: usize| self.coordinate(3 * body + k, t, left.as_ref());
+        let coordinate = |k: usize| self.coordinate(3 * body + k, t, &left);
         let [(x, u), (y, v), (angle, spin)] = [0, 1, 2].map(coordinate);
         (vec2(x, y), vec2(u, v), angle, spin)
     }
@@ -285,9 +274,7 @@ impl Path for Collocated {
         let of = |k: usize| {
             let terms = self.terms[3 * body + k].iter().rev();
             let law = terms.fold(0.0, |sum, term| sum * tau + term);
-            left.as_ref().map_or(law, |left| {
-                law - self.damping * self.coordinate(3 * body + k, t, Some(left)).1
-            })
+            law - self.damping * self.coordinate(3 * body + k, t, &left).1
         };
         (vec2(of(0), of(1)), of(2))
     }
