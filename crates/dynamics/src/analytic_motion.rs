@@ -39,7 +39,6 @@ impl World {
             return;
         };
         let until = group.until.unwrap_or(SimTime::NEVER);
-        group.carry(&self.bodies, &mut self.pairs);
         let members = group.indices();
         let touches: Vec<PairIx> = group.touches.iter().map(|touch| touch.pair).collect();
         for &index in &members {

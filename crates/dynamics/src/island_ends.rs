@@ -93,7 +93,6 @@ impl World {
             let Some(group) = self.closed.get(place) else {
                 continue;
             };
-            group.carry(&self.bodies, &mut self.pairs);
             for &(index, _) in &group.members {
                 self.bodies.get_mut(index).begin_analytic_rest();
                 lying.insert(index);
@@ -108,6 +107,10 @@ impl World {
 
     /// An analytic island that has been at rest for long enough falls asleep.
     pub(crate) fn fall_asleep(&mut self, place: IslandIx, time: SimTime) {
+        // Forces of sleepers are read of their pairs alone.
+        if let Some(group) = self.closed.get(place) {
+            group.carry(&self.bodies, &mut self.pairs);
+        }
         let members = self.dissolve(place, time);
         let mut lying = Vec::new();
         for &index in &members {

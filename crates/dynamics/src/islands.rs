@@ -18,14 +18,13 @@ use crate::model::narrow::{TOUCH, look, opening_speed};
 use crate::{BodyIx, BodyKind, ContactMode, IslandIx, Mode, PairIx, World};
 
 impl World {
-    /// Closed forms for bodies that wait for their method, and for what their groups hold.
+    /// Closed forms for bodies that wait for their method.
     pub(crate) fn close_groups_within(&mut self, waiting: &[BodyIx], time: SimTime) {
         let of = |index: &BodyIx| self.bodies.get(*index).pairs.iter().copied();
         let places = self.pairs.by_colliders(waiting.iter().flat_map(of));
         for place in places {
             self.close_group_of(place, time);
         }
-        self.keep_closed(time);
     }
 
     /// A closed form for the group of a pair that touches.
@@ -49,20 +48,6 @@ impl World {
             {
                 self.solve_modes_around(index, time, 0.0);
             }
-        }
-    }
-
-    /// Contacts of groups that are new at `time` last, and carry what the group says.
-    fn keep_closed(&mut self, time: SimTime) {
-        let bodies = &self.bodies;
-        let goes =
-            |group: &Group| group.rests_analytically(bodies) || group.moves_analytically(bodies);
-        let new = self
-            .closed
-            .iter()
-            .filter(|group| group.since == time && !goes(group));
-        for group in new {
-            group.carry(bodies, &mut self.pairs);
         }
     }
 

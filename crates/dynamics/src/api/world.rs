@@ -217,7 +217,7 @@ impl World {
 
     fn contacts_at(&self, place: PairIx) -> Vec<Contact> {
         let pair = self.pairs.get(place);
-        let now = (self.closed).moving_pair_at(&self.bodies, pair, place, self.clock.now);
+        let now = (self.closed).pair_at(&self.bodies, pair, place, self.clock.now);
         let pair = now.as_ref().unwrap_or(pair);
         Contact::of(&self.bodies, pair).collect()
     }

@@ -1,6 +1,5 @@
 //! A look at every near pair: where its parts touch, and which contacts the solver takes.
 
-use arrayvec::ArrayVec;
 use carom_collision::{PartManifold, contacts};
 use carom_math::{Pose, SimTime, Vec2};
 
@@ -24,7 +23,7 @@ pub(crate) const SUNK: f64 = 1e-6;
 /// Impacts leave none, and the lowest contact of a stack of ten such boxes 0.8 mm.
 pub(crate) const BURIED: f64 = 1.0 / 16.0;
 
-/// Looks at a pair at `time` and replaces its contacts; impulses go over by feature.
+/// Looks at a pair at `time` and replaces its contacts.
 pub(crate) fn look(bodies: &Bodies, pair: &mut Pair, time: SimTime) {
     let (a, b) = bodies.both(pair.bodies);
     let (from, to) = (a.in_impact(time), b.in_impact(time));
@@ -43,9 +42,7 @@ pub(crate) fn look(bodies: &Bodies, pair: &mut Pair, time: SimTime) {
     let [solid_a, solid_b] = bodies.solids(pair.colliders);
     let seen = pose_b.seen_from(pose_a);
     contacts(solid_a, solid_b, seen, margin, &mut found);
-    // Impulses go over by feature.
-    let carried = found.iter().map(|new| carried(new, pose_a, &pair.contacts));
-    pair.contacts = carried.collect();
+    pair.contacts = found.iter().map(|new| in_world(new, pose_a)).collect();
     note_touch(bodies, pair, time);
 }
 
@@ -82,30 +79,18 @@ fn turning_rest(bodies: &Bodies, pair: &Pair, time: SimTime) -> f64 {
     fastest
 }
 
-/// A new contact in the world, with the impulses of the old one of the same parts.
-pub(crate) fn carried(new: &PartManifold, pose_a: Pose, old: &[PairContact]) -> PairContact {
-    let parts = (new.part_a, new.part_b);
-    let before = old.iter().find(|contact| contact.parts == parts);
-    let normal = pose_a.vector(new.manifold.normal);
-    let mut points = ArrayVec::new();
-    for point in &new.manifold.points {
-        let impulse = before
-            .and_then(|contact| contact.points.iter().find(|p| p.feature == point.feature))
-            .map_or(0.0, |p| p.impulse);
-        points.push(PairPoint {
-            feature: point.feature,
-            position: pose_a.point(point.point),
-            separation: point.separation,
-            impulse,
-        });
-    }
-    // Friction goes over where the face kept its direction.
-    let kept = before.filter(|contact| contact.normal.dot(normal) > 0.9);
+/// A new contact in the world.
+fn in_world(new: &PartManifold, pose_a: Pose) -> PairContact {
+    let points = new.manifold.points.iter().map(|point| PairPoint {
+        position: pose_a.point(point.point),
+        separation: point.separation,
+        impulse: 0.0,
+    });
     PairContact {
-        parts,
-        normal,
-        points,
-        tangent_impulse: kept.map_or(0.0, |contact| contact.tangent_impulse),
+        parts: (new.part_a, new.part_b),
+        normal: pose_a.vector(new.manifold.normal),
+        points: points.collect(),
+        tangent_impulse: 0.0,
     }
 }
 

@@ -1,7 +1,6 @@
 //! Pairs of shapes that are near each other, and what they remember.
 
 use arrayvec::ArrayVec;
-use carom_collision::FeatureId;
 use carom_math::{SimTime, Vec2};
 
 use super::clock::whole;
@@ -98,7 +97,6 @@ pub(crate) struct PairContact {
 /// A point of a contact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PairPoint {
-    pub(crate) feature: FeatureId,
     /// In the world, in m.
     pub(crate) position: Vec2,
     pub(crate) separation: f64,

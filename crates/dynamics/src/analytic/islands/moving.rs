@@ -85,8 +85,8 @@ impl Closed {
         bodies.get_mut(index).set_piece(end.min(until));
     }
 
-    /// A pair of an island in analytic motion, with its contacts where they are at `time`.
-    pub(crate) fn moving_pair_at(
+    /// A pair of an island, with its contacts where they are at `time`, and the forces of the island's mode.
+    pub(crate) fn pair_at(
         &self,
         bodies: &Bodies,
         pair: &Pair,
@@ -94,10 +94,11 @@ impl Closed {
         time: SimTime,
     ) -> Option<Pair> {
         let mut ends = [pair.bodies.0, pair.bodies.1].into_iter();
-        let index = ends.find(|index| bodies.get(*index).moves_analytically())?;
-        let group = self.group_of(bodies, index)?;
+        let group = ends.find_map(|index| self.group_of(bodies, index))?;
         let mut now = pair.clone();
-        look(bodies, &mut now, time);
+        if group.moves_analytically(bodies) {
+            look(bodies, &mut now, time);
+        }
         let touches = group.touches_at(time).into_iter();
         for touch in touches.filter(|touch| touch.pair == place) {
             touch.carry(bodies, &mut now);

@@ -68,12 +68,6 @@ pub(crate) struct Group {
 }
 
 impl Group {
-    /// Its members are treated as asleep, but reported awake to the caller.
-    pub(crate) fn rests_analytically(&self, bodies: &Bodies) -> bool {
-        let first = self.members.first();
-        first.is_some_and(|(index, _)| bodies.get(*index).rests_analytically())
-    }
-
     /// Its members move along their parabolas until its mode changes.
     pub(crate) fn moves_analytically(&self, bodies: &Bodies) -> bool {
         let first = self.members.first();
@@ -172,7 +166,6 @@ impl Kept {
     pub(crate) fn carry(&self, bodies: &Bodies, pair: &mut Pair) {
         let reach = |index| bodies.get(index).reach;
         let gap = TOUCH * reach(pair.bodies.0).min(reach(pair.bodies.1));
-        pair.lasting = self.moved.mode != ContactMode::Open;
         if let Some(contact) = pair.contacts.get_mut(self.contact) {
             contact.tangent_impulse = self.moved.tangential * bodies.h;
             let mut forces = self.moved.normal.iter();
