@@ -58,17 +58,6 @@ impl World {
         }
     }
 
-    /// A body is free from here on; the modes of its group are solved for without it.
-    pub(crate) fn leave_group(&mut self, index: BodyIx, time: SimTime) {
-        let place = self.bodies.get(index).membership.group;
-        if let Some(group) = self.closed.get(place) {
-            let speed = group.speed;
-            let mut members = self.dissolve(place, time);
-            members.retain(|member| *member != index);
-            self.solve_modes_of(&members, time, speed);
-        }
-    }
-
     /// A pair is no more: a group that it held together is taken apart.
     pub(crate) fn loosen(&mut self, pair: PairIx, bodies: Two<BodyIx>, time: SimTime) {
         for index in [bodies.0, bodies.1] {

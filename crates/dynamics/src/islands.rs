@@ -40,9 +40,7 @@ impl World {
         for index in ends {
             let state = self.bodies.get(index);
             // A touch with a group is the group's alone.
-            if state.is_dynamic()
-                && !state.is_asleep()
-                && !state.in_engine()
+            if state.is_outside()
                 && !state.membership.is_closed()
                 && (joins.contains(&true) || !state.membership.has_failed(time))
             {
@@ -147,34 +145,28 @@ impl World {
             return;
         }
         let state = self.bodies.get(index);
-        let place = state.membership.group;
-        let (members, speed) = match self.closed.get(place) {
-            Some(group) => {
-                if group.members.contains(&(index, self.bodies.version(index))) {
-                    return;
-                }
-                let speed = group.speed;
-                (self.dissolve(place, time), speed)
+        if let Some(group) = self.closed.group_of(&self.bodies, index) {
+            if !group.members.contains(&(index, self.bodies.version(index))) {
+                self.solve_modes_anew(index, time, None);
             }
-            None if state.is_dynamic()
-                && !state.is_asleep()
-                && !state.in_engine()
-                && self.may_last(index) =>
-            {
-                self.bodies.get_mut(index).membership.forget();
-                (vec![index], 0.0)
-            }
-            None => return,
-        };
-        self.solve_modes_of(&members, time, speed);
+        } else if state.is_outside() && self.may_last(index) {
+            self.bodies.get_mut(index).membership.forget();
+            self.solve_modes_of(&[index], time, 0.0);
+        }
     }
 
-    /// Solves for the modes of a body's group anew, whether its members have other motions or not.
-    pub(crate) fn solve_modes_anew(&mut self, index: BodyIx, time: SimTime) {
+    /// Solves for the modes of a body's group anew, whether its members have other motions or not, but for one that `leaves`.
+    pub(crate) fn solve_modes_anew(
+        &mut self,
+        index: BodyIx,
+        time: SimTime,
+        leaves: Option<BodyIx>,
+    ) {
         let place = self.bodies.get(index).membership.group;
         if let Some(group) = self.closed.get(place) {
             let speed = group.speed;
-            let members = self.dissolve(place, time);
+            let mut members = self.dissolve(place, time);
+            members.retain(|member| Some(*member) != leaves);
             self.solve_modes_of(&members, time, speed);
         }
     }
@@ -182,7 +174,7 @@ impl World {
     /// A body that goes on as before has one contact more: the modes of its island are solved for anew.
     pub(crate) fn gain_contact(&mut self, index: BodyIx, time: SimTime) {
         if self.bodies.get(index).membership.is_closed() {
-            self.solve_modes_anew(index, time);
+            self.solve_modes_anew(index, time, None);
         } else {
             self.regroup(index, time);
         }

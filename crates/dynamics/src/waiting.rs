@@ -160,8 +160,7 @@ impl World {
         (time, left): (SimTime, f64),
     ) -> bool {
         let (state, other) = (self.bodies.get(index), self.bodies.get(standing));
-        let goes = state.is_dynamic() && !state.is_asleep() && !state.in_engine();
-        if !goes || !way.overlaps(box_ahead(other, time, left)) {
+        if !state.is_outside() || !way.overlaps(box_ahead(other, time, left)) {
             return false;
         }
         let motions = [state, other].map(|state| state.motion.rebased(time));

@@ -343,7 +343,7 @@ impl World {
             if self.bodies.get(other).is_asleep() {
                 self.wake(other, time);
             }
-            self.solve_modes_anew(other, time);
+            self.solve_modes_anew(other, time, None);
         }
     }
 

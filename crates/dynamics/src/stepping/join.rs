@@ -132,7 +132,7 @@ impl World {
     /// From now on the engine moves this body. In the middle of a sub-step it stands where it is until the next.
     pub(crate) fn join(&mut self, index: BodyIx, time: SimTime) {
         let state = self.bodies.get(index);
-        if !state.is_dynamic() || state.is_asleep() || state.in_engine() {
+        if !state.is_outside() {
             return;
         }
         let group = state.membership.group;

@@ -198,6 +198,11 @@ impl BodyState {
         self.is_dynamic() && self.goes_by_events()
     }
 
+    /// Dynamic and awake, and not the engine's.
+    pub(crate) fn is_outside(&self) -> bool {
+        self.is_dynamic() && !self.is_asleep() && !self.in_engine()
+    }
+
     /// Moved by the engine, or without a method until time goes on.
     pub(crate) fn is_stepped(&self) -> bool {
         self.is_active() && !self.goes_by_events()

@@ -156,7 +156,7 @@ impl World {
 
     /// A body that nothing holds any more flies from event to event.
     pub(crate) fn take_off(&mut self, index: BodyIx, time: SimTime) {
-        self.leave_group(index, time);
+        self.solve_modes_anew(index, time, Some(index));
         self.end_unsettled(index);
         for place in self.bodies.get(index).pairs.clone() {
             let other = self.pairs.get(place).other(index);
