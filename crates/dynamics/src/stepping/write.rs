@@ -5,7 +5,6 @@ use carom_math::{Pose, SimTime, Vec2};
 use carom_stepped::State;
 
 use super::{Stepping, place};
-use crate::BodyIx;
 use crate::store::bodies::Bodies;
 use crate::store::clock::Clock;
 use crate::store::uncommon::Lag;
@@ -63,50 +62,6 @@ impl Stepping {
             return;
         }
         let ((v, w), (u, s)) = (state.velocity, state.before);
-        let ending = Ending::of(state, (start, h));
-        let noted = self
-            .places
-            .binary_search_by_key(&index, |noted| noted.0)
-            .map(|k| self.places[k]);
-        // What slept as the sub-step began, and was met in it, is where it lay.
-        let lay = |_| {
-            let body = bodies.get(index);
-            let lies = |_| (index, body.centre_pose(start), body.turned_at(start));
-            state.lack.map(lies)
-        };
-        if let Some((_, from, turned)) = noted.map_or_else(lay, Some) {
-            let reach = bodies.get(index).reach;
-            let left = state.turned - turned;
-            let (motion, way) = (&ending.motion, ending.way);
-            let off = (motion.centre - from.position).length() + (left - ending.turn).abs() * reach;
-            // What contacts push on a parabola may have more energy on the way than at both ends.
-            let (pull, _) = bodies.pull_on(index, from.position);
-            let pushed = (v - u - pull * h).length() > SAME * (v.length() + u.length());
-            if state.lack.is_some() || pushed || off > SAME * (reach + way.length()) {
-                let shown = match state.lack {
-                    Some(lack) => lack.map(|lack| (v - lack.0, w - lack.1)),
-                    None => [(u, s), (v, w)],
-                };
-                go_evenly(bodies, start, (from, turned), shown, state, h);
-                return;
-            }
-        }
-        ending.write(bodies, index);
-    }
-}
-
-/// A motion that ends as a sub-step does: from the velocity before to the one after, to where the body is.
-struct Ending {
-    motion: Motion,
-    way: Vec2,
-    turn: f64,
-    /// The angle it ends with, in rad.
-    turned: f64,
-}
-
-impl Ending {
-    fn of(state: &State, (start, h): (SimTime, f64)) -> Self {
-        let ((v, w), (u, s)) = (state.velocity, state.before);
         let mut motion = Motion {
             start,
             centre: state.pose.position,
@@ -120,16 +75,33 @@ impl Ending {
         let (way, turn) = (motion.travel(h), motion.turn(h));
         motion.centre -= way;
         motion.rotation = motion.rotation.turned_slightly(-turn);
-        Self {
-            motion,
-            way,
-            turn,
-            turned: state.turned,
+        let noted = self
+            .places
+            .binary_search_by_key(&index, |noted| noted.0)
+            .map(|k| self.places[k]);
+        // What slept as the sub-step began, and was met in it, is where it lay.
+        let lay = |_| {
+            let body = bodies.get(index);
+            let lies = |_| (index, body.centre_pose(start), body.turned_at(start));
+            state.lack.map(lies)
+        };
+        if let Some((_, from, turned)) = noted.map_or_else(lay, Some) {
+            let reach = bodies.get(index).reach;
+            let left = state.turned - turned;
+            let off = (motion.centre - from.position).length() + (left - turn).abs() * reach;
+            // What contacts push on a parabola may have more energy on the way than at both ends.
+            let (pull, _) = bodies.pull_on(index, from.position);
+            let pushed = (v - u - pull * h).length() > SAME * (v.length() + u.length());
+            if state.lack.is_some() || pushed || off > SAME * (reach + way.length()) {
+                let shown = match state.lack {
+                    Some(lack) => lack.map(|lack| (v - lack.0, w - lack.1)),
+                    None => [(u, s), (v, w)],
+                };
+                go_evenly(bodies, start, (from, turned), shown, state, h);
+                return;
+            }
         }
-    }
-
-    fn write(&self, bodies: &mut Bodies, index: BodyIx) {
-        bodies.go_on_as(index, &self.motion, self.turned - self.turn);
+        bodies.go_on_as(index, &motion, state.turned - turn);
         bodies.renew(index);
     }
 }
