@@ -10,11 +10,14 @@ use crate::impact::ImpactBody;
 use crate::model::approach::{Approach, approach, opening};
 use crate::model::edges::{Feature, at_the_end, corner_under_disc, feature};
 use crate::model::ghost::look_at;
-use crate::model::graph::{ROWS, neighbours};
+use crate::model::graph::neighbours;
 use crate::model::narrow::{SUNK, TOUCH, rest_speed};
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::{BodyIx, PairIx};
+
+/// An island of more rows (points, and a friction for each touch) than this has no closed form: it is the engine's.
+const ROWS: usize = 64;
 
 /// All that hangs together by touch around a body.
 #[derive(Clone, Debug, Default)]

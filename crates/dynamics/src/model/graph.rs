@@ -4,9 +4,6 @@ use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::{BodyIx, ColliderIx, PairIx, Two};
 
-/// An island of more rows (points, and a friction for each touch) than this has no closed form: it is the engine's.
-pub(crate) const ROWS: usize = 64;
-
 /// Bodies that touch a body.
 pub(crate) fn neighbours<'a>(
     bodies: &'a Bodies,

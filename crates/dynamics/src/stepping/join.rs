@@ -25,7 +25,7 @@ use crate::{BodyIx, EnergyLedger, Mode, World};
 /// More bodies than this that wake, or land, at once join the engine.
 pub(crate) const FEW: usize = 16;
 
-/// Groups of more bodies in touch than this have more than [`crate::model::graph::ROWS`] rows: no closed form is tried.
+/// Groups of more bodies in touch than this have too many rows ([`crate::analytic::touching`]): no closed form is tried.
 pub(crate) const MANY: usize = 64;
 
 /// A member flies after more ticks than these without a contact.

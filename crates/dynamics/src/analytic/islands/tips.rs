@@ -31,12 +31,9 @@ pub(crate) fn path_of(
     gathered: &Gathered,
     (time, speed, mode): (SimTime, f64, Mode),
 ) -> Result<Tip, NotMine> {
-    if is_too_large(gathered, mode) {
-        return Err(NotMine::TooLarge);
-    }
     // Free bodies land first.
     let is_free = |index: &BodyIx| bodies.get(*index).is_free();
-    if gathered.places.iter().any(is_free) {
+    if is_too_large(gathered, mode) || gathered.places.iter().any(is_free) {
         return Err(NotMine::Turns);
     }
     let contacts = joints(bodies, pairs, gathered, time).ok_or(NotMine::Curved)?;

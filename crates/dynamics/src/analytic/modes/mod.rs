@@ -24,7 +24,6 @@ use crate::ContactMode;
 use crate::impact::ImpactBody;
 use crate::model::approach::CLOSED;
 use crate::model::edges::Feature;
-use crate::model::graph::ROWS;
 pub(crate) use balance::Tangent;
 use balance::{Balance, Reaction, balance};
 use change::Load;
@@ -88,8 +87,6 @@ pub(crate) struct GroupMove {
 /// Why a group is not for closed forms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum NotMine {
-    /// More than [`ROWS`] rows.
-    TooLarge,
     /// A touch opens or closes already.
     Approaches,
     /// A body that has corners or edges in touch turns, or would.
@@ -116,10 +113,6 @@ pub(crate) fn solve_modes(
     touches: &[Touch],
     speed: f64,
 ) -> Result<GroupMove, NotMine> {
-    let rows = |touch: &Touch| touch.points.len() + usize::from(touch.friction > 0.0);
-    if touches.iter().map(rows).sum::<usize>() > ROWS {
-        return Err(NotMine::TooLarge);
-    }
     let slips = faces::slips(bodies, touches, speed)?;
     let without;
     let bodies = if turns(bodies, touches, speed) {

@@ -25,7 +25,6 @@ use crate::impact::ImpactBody;
 use crate::law::collocated::Collocated;
 use crate::law::path::{Path, Place};
 use crate::model::edges::Feature;
-use crate::model::graph::ROWS;
 pub(crate) use equations::{Equations, Forces, Workspace};
 pub(crate) use joint::{End, Joint};
 pub(crate) use roots::Limit;
@@ -205,10 +204,6 @@ pub(crate) fn tip(
     start: SimTime,
     speed: f64,
 ) -> Result<Tip, NotMine> {
-    let rows = |contact: &Contact| contact.joints.len() + usize::from(contact.friction > 0.0);
-    if contacts.iter().map(rows).sum::<usize>() > ROWS {
-        return Err(NotMine::TooLarge);
-    }
     let (mut holds, moves) = modes(&bodies, &pulls, &places, &contacts, speed)?;
     let mut fastest = speed;
     for ((place, body), moved) in places.iter_mut().zip(&mut bodies).zip(moves) {
