@@ -6,7 +6,6 @@ use carom_math::{SimTime, Vec2};
 
 use crate::stepping::Stepping;
 use crate::stepping::rules::Rules;
-use crate::stepping::rush::Haste;
 use crate::store::clock::whole;
 use crate::{BodyIx, BodyKind, Mode, World};
 
@@ -293,11 +292,11 @@ impl World {
             self.end_rush(time);
         }
         let was_substepping = self.is_substepping();
-        let haste = self.joins.rush.count(bodies, lost, tick);
-        if haste != Haste::None && !was_substepping {
+        let at_once = self.joins.rush.count(bodies, lost, tick);
+        if !was_substepping && self.joins.rush.is_due() {
             self.clock.catch_up(time);
         }
-        if haste == Haste::AtOnce {
+        if at_once {
             self.end_rush(time);
         }
     }

@@ -105,11 +105,11 @@ impl Rush {
         self.tick != tick
     }
 
-    /// Counts an impact in a tick that changed the motions of `bodies`, at the price of `lost`: whether there are too many now among
-    /// the bodies that struck each other.
-    pub(crate) fn count(&mut self, bodies: &[BodyIx], lost: f64, tick: u64) -> Haste {
+    /// Counts an impact in a tick that changed the motions of `bodies`, at the price of `lost`: whether there are so many now among
+    /// the bodies that struck each other that these are to join at once.
+    pub(crate) fn count(&mut self, bodies: &[BodyIx], lost: f64, tick: u64) -> bool {
         let Some((&first, others)) = bodies.split_first() else {
-            return Haste::None;
+            return false;
         };
         self.turn_to(tick);
         let mut root = self.root(first);
@@ -127,16 +127,12 @@ impl Rush {
             SERIES
         };
         if spent <= losses * size {
-            return Haste::None;
+            return false;
         }
         if !self.due.contains(&root) {
             self.due.push(root);
         }
-        if spent > AT_ONCE * size {
-            Haste::AtOnce
-        } else {
-            Haste::Due
-        }
+        spent > AT_ONCE * size
     }
 
     /// Takes out the bodies that struck each other too often, in order.
@@ -148,13 +144,4 @@ impl Rush {
         members.sort_unstable();
         members
     }
-}
-
-/// When bodies that strike each other join the engine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Haste {
-    None,
-    /// With the next sub-step.
-    Due,
-    AtOnce,
 }
