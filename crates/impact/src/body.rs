@@ -67,6 +67,12 @@ impl ImpactBody {
         self.moving(Vec2::ZERO, 0.0)
     }
 
+    /// Whether it is of infinite mass, and on the move.
+    #[must_use]
+    pub fn drives(&self) -> bool {
+        self.inverse_mass == 0.0 && (self.velocity != Vec2::ZERO || self.spin != 0.0)
+    }
+
     /// Most speed that an impulse of 1 N·s at `point` gives that point, in m/s.
     pub(super) fn yields_at(&self, point: Vec2) -> f64 {
         self.inverse_mass + (point - self.centre).length_squared() * self.inverse_inertia

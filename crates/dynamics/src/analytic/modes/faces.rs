@@ -85,7 +85,7 @@ impl Faces {
             }
         }
         stops.apply(&mut accelerations);
-        let velocities = if bodies.iter().any(is_driven) {
+        let velocities = if bodies.iter().any(ImpactBody::drives) {
             None
         } else {
             let mut velocities = scaled(bodies, velocities_of(bodies));
@@ -132,11 +132,6 @@ impl Faces {
         });
         Stops::of(normals.chain(tangents), self.free.len())
     }
-}
-
-/// Of infinite mass, and on the move.
-pub(super) fn is_driven(body: &ImpactBody) -> bool {
-    body.inverse_mass == 0.0 && (body.velocity != Vec2::ZERO || body.spin != 0.0)
 }
 
 /// The given numbers where scaling there and back changed nothing but the last bits.

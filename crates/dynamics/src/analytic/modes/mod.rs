@@ -165,7 +165,7 @@ pub(crate) fn begin(
     bends: &[([f64; 2], f64)],
     speed: f64,
 ) -> Result<Begun, NotMine> {
-    if bodies.iter().any(faces::is_driven) {
+    if bodies.iter().any(ImpactBody::drives) {
         return Err(NotMine::Turns);
     }
     let mut faces = Faces::new(bodies, pulls, touches);
@@ -230,7 +230,7 @@ pub(crate) fn land(bodies: &[ImpactBody], touches: &[Touch]) -> Result<Vec<(Vec2
 /// a disc in an obtuse corner goes from wall to wall, each time `cos` of the angle between them slower. All of it takes no
 /// more than [`crate::model::press`] lets it, and no more energy than these bounces had.
 pub(crate) fn hold(bodies: &[ImpactBody], touches: &[&Touch]) -> Vec<(Vec2, f64)> {
-    if bodies.iter().any(faces::is_driven) {
+    if bodies.iter().any(ImpactBody::drives) {
         return faces::velocities_of(bodies).collect();
     }
     faces::held(bodies, touches, |_| false)
@@ -283,7 +283,7 @@ fn without_roundings(
     touches: &[Touch],
     speed: f64,
 ) -> Option<Vec<ImpactBody>> {
-    if bodies.iter().any(faces::is_driven) {
+    if bodies.iter().any(ImpactBody::drives) {
         return None;
     }
     let held = stand(bodies, touches, speed);

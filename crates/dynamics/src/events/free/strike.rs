@@ -11,7 +11,7 @@ use crate::impact::{ImpactBody, ImpactContact, resolve};
 use crate::model::narrow::NOISE;
 use crate::store::clock::whole;
 use crate::store::zeno::ZenoSeries;
-use crate::{BodyIx, BodyKind, EventKind, Ix, Mode, PairIx, PairMaterial, Two, World};
+use crate::{BodyIx, EventKind, Ix, Mode, PairIx, PairMaterial, Two, World};
 
 /// What the impacts of one free body may spend in a tick before the solver takes the rest, in losses of
 /// relative speed.
@@ -274,14 +274,6 @@ impl World {
         self.free.struck = None;
     }
 
-    fn is_driven(&self, (a, b): Two<BodyIx>, time: SimTime) -> bool {
-        [a, b].into_iter().any(|index| {
-            let state = self.bodies.get(index);
-            state.kind == BodyKind::Kinematic
-                && (state.velocity_at(time) != Vec2::ZERO || state.spin_at(time) != 0.0)
-        })
-    }
-
     /// Counts an impact; whether one of the bodies has used up those of the present tick. One without a loss, on what is not driven,
     /// spends nothing: no stop is the limit of these.
     pub(super) fn outruns(
@@ -293,7 +285,7 @@ impl World {
         // Between what is driven and a wall impacts come ever faster though nothing is lost, and without end.
         let keeps = material.restitution >= 1.0
             && material.friction == 0.0
-            && !self.is_driven(impact.bodies, time);
+            && !self.ends_of(impact, time).iter().any(ImpactBody::drives);
         if keeps {
             return false;
         }
