@@ -132,15 +132,6 @@ impl World {
             }
         }
     }
-
-    /// Gives all groups that touch a body back.
-    pub(crate) fn hand_back_around(&mut self, index: BodyIx, time: SimTime) {
-        self.hand_back_of(index, time);
-        for slot in 0..self.bodies.get(index).pairs.len() {
-            let pair = self.pairs.get(self.bodies.get(index).pairs[slot]);
-            self.hand_back_of(pair.other(index), time);
-        }
-    }
 }
 
 #[cfg(test)]

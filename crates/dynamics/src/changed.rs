@@ -36,7 +36,7 @@ impl World {
             return self.foresee(index, time, Cause::Arrived, None);
         }
         let left = (self.clock.next() - time).max(0.0);
-        self.refit(index, time, left);
+        self.refit(index, time, left, true);
         // What rests from now on may lie in the way of what flies.
         if !self.bodies.get(index).is_stepped() {
             self.show(index, time);
@@ -125,7 +125,11 @@ impl World {
         if self.is_engines(index) {
             return self.wake_in_engine(index, time);
         }
-        self.hand_back_around(index, time);
+        self.hand_back_of(index, time);
+        for slot in 0..self.bodies.get(index).pairs.len() {
+            let pair = self.pairs.get(self.bodies.get(index).pairs[slot]);
+            self.hand_back_of(pair.other(index), time);
+        }
         self.look_at_fresh(time);
         let mut waking: Vec<BodyIx> = neighbours(&self.bodies, &self.pairs, index).collect();
         waking.reverse();
@@ -180,12 +184,8 @@ impl World {
         }
     }
 
-    pub(crate) fn refit(&mut self, index: BodyIx, time: SimTime, h: f64) {
-        self.refit_among(index, time, h, true);
-    }
-
-    /// [`Self::refit`]; `meets`: free bodies in the new boxes are found.
-    pub(crate) fn refit_among(&mut self, index: BodyIx, time: SimTime, h: f64, meets: bool) {
+    /// Brings the boxes of a body up to date for the next `h` seconds; `meets`: free bodies in the new ones are found.
+    pub(crate) fn refit(&mut self, index: BodyIx, time: SimTime, h: f64, meets: bool) {
         let free = |bodies: &Bodies, bounds: Aabb, near: &mut Vec<BodyIx>| {
             self.free.overlapping(bodies, bounds, near);
         };

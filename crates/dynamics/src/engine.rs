@@ -163,7 +163,7 @@ impl World {
             self.clock.catch_up(time);
         }
         for index in slept.laid {
-            self.refit_among(index, time, self.clock.h, false);
+            self.refit(index, time, self.clock.h, false);
             self.show(index, time);
         }
     }

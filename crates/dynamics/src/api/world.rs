@@ -132,7 +132,7 @@ impl World {
             self.show_engine(id.index);
         } else if sleeps {
             // No flight, and nothing to predict: it only has to be found.
-            self.refit(id.index, now, self.clock.h);
+            self.refit(id.index, now, self.clock.h, true);
             self.show(id.index, now);
             self.show_engine(id.index);
         } else {

@@ -214,10 +214,6 @@ impl Closed {
         self.get(bodies.get(index).membership.group)
     }
 
-    pub(crate) fn iter(&self) -> impl Iterator<Item = &Group> {
-        self.groups.iter().map(|(_, (_, group))| group)
-    }
-
     /// Enters a group, and its members into it; its place.
     pub(crate) fn insert(&mut self, bodies: &mut Bodies, group: Group) -> IslandIx {
         self.stamp += 1;
@@ -286,7 +282,8 @@ impl Closed {
 
     /// Friction's heat, and the work of driven partners, not booked yet, in J.
     pub(crate) fn unbooked(&self, now: SimTime) -> (f64, f64) {
-        let works = self.iter().map(|group| group.works(now - group.since));
+        let groups = self.groups.iter();
+        let works = groups.map(|(_, (_, group))| group.works(now - group.since));
         works.fold((0.0, 0.0), |(heat, driven), (more, work)| {
             (heat + more, driven + work)
         })
