@@ -8,7 +8,7 @@ pub(crate) use crate::input::{BodyId, BodyInput, BodyKind};
 pub(crate) use crate::record::{BEND, FAST, Limit, Record, Sleeper};
 use crate::record::{UNDAMPED, drag};
 use crate::rows::{Line, Quad, velocity_before};
-use crate::{EngineError, Settings};
+use crate::{BodyIx, EngineError, Settings};
 
 /// A place in a list, or the length of one, as it is stored: what is counted so takes dozens of bytes each.
 #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32")]
@@ -20,7 +20,7 @@ pub(crate) const fn number(at: usize) -> u32 {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bodies {
     pub(crate) records: Vec<Record>,
-    free: Vec<u32>,
+    free: Vec<BodyIx>,
     births: u64,
     /// Counts updates of contacts.
     pub(crate) updates: u64,
@@ -35,7 +35,7 @@ pub(crate) struct Bodies {
     pub(crate) turned: Vec<f64>,
     pub(crate) limits: Vec<Limit>,
     /// Slots of the bodies.
-    pub(crate) slot_of: Vec<u32>,
+    pub(crate) slot_of: Vec<BodyIx>,
     /// Whether they were rebased in this tick.
     pub(crate) moved: Vec<bool>,
     /// For how long they have been at rest, in s; −∞ of those that may not sleep.
@@ -78,7 +78,7 @@ impl Bodies {
             base: vec![Pose::IDENTITY; 2],
             turned: vec![0.0; 2],
             limits: vec![unlimited; 2],
-            slot_of: vec![Self::NONE; 2],
+            slot_of: vec![BodyIx::NONE; 2],
             moved: vec![false; 2],
             rest: vec![0.0; 2],
             foreseen: vec![Quad::default(); 2],
@@ -90,14 +90,14 @@ impl Bodies {
 
     /// The pieces of the body of a line.
     pub(crate) fn pieces_of_line(&self, line: usize) -> Range<u32> {
-        let record = &self.records[self.slot_of[line] as usize];
+        let record = &self.records[self.slot_of[line]];
         record.pieces()
     }
 
     /// Number of the insertion of the body of a line; 0 for the lines of empty lanes and of fixed bodies.
     pub(crate) fn birth_of_line(&self, line: u32) -> u64 {
         let slot = self.slot_of[line as usize];
-        let record = self.records.get(slot as usize);
+        let record = self.records.get(slot.at());
         record.map_or(0, |record| record.birth)
     }
 
@@ -105,10 +105,10 @@ impl Bodies {
     pub(crate) fn insert(&mut self, input: &BodyInput, settings: &Settings) -> BodyId {
         let slot = self.free.pop().unwrap_or_else(|| {
             self.records.push(Record::NONE);
-            number(self.records.len() - 1)
+            BodyIx::new(self.records.len() - 1)
         });
         self.births += 1;
-        let record = &mut self.records[slot as usize];
+        let record = &mut self.records[slot];
         *record = Record {
             generation: record.generation + 1,
             kind: input.kind,
@@ -138,9 +138,9 @@ impl Bodies {
     }
 
     /// Gives a body a line at the end.
-    fn give_line(&mut self, slot: u32, v: Vec2, w: f64, settings: &Settings) {
+    fn give_line(&mut self, slot: BodyIx, v: Vec2, w: f64, settings: &Settings) {
         let line = number(self.lines.len());
-        let record = &mut self.records[slot as usize];
+        let record = &mut self.records[slot];
         record.line = line;
         let (m, i) = (record.mass.recip(), record.inertia.recip());
         self.lines.push(Line::new(v, w, m, i));
@@ -197,10 +197,10 @@ impl Bodies {
     }
 
     /// Takes the line of a body out, to be put back as it is but for a velocity of 0; which body moved to its place.
-    pub(crate) fn lay(&mut self, slot: u32) -> (Sleeper, Option<u32>) {
-        let at = self.records[slot as usize].line as usize;
+    pub(crate) fn lay(&mut self, slot: BodyIx) -> (Sleeper, Option<BodyIx>) {
+        let at = self.records[slot].line as usize;
         let (pose, turned) = (self.pose_of(slot), self.turned_at(at));
-        let record = &mut self.records[slot as usize];
+        let record = &mut self.records[slot];
         (record.pose, record.turned) = (pose, turned);
         let (mut line, mut start) = (self.lines[at], self.start[at]);
         // What contacts do in a sub-step stays.
@@ -227,7 +227,7 @@ impl Bodies {
     /// Gives a body its line again.
     pub(crate) fn raise(&mut self, sleeper: &Sleeper, settings: &Settings) {
         self.give_line(sleeper.slot, Vec2::ZERO, 0.0, settings);
-        let line = self.records[sleeper.slot as usize].line;
+        let line = self.records[sleeper.slot].line;
         let at = line as usize;
         self.lines[at] = sleeper.line;
         self.start[at] = sleeper.start;
@@ -238,17 +238,22 @@ impl Bodies {
         self.moved[at] = sleeper.moved;
     }
 
+    /// All records, with the slots of their bodies.
+    pub(crate) fn each(&self) -> impl Iterator<Item = (BodyIx, &Record)> {
+        (0..).map(BodyIx::new).zip(&self.records)
+    }
+
     /// The line of a body; that of fixed ones if it sleeps.
-    pub(crate) fn line_of(&self, slot: u32) -> usize {
-        match self.records[slot as usize].line {
+    pub(crate) fn line_of(&self, slot: BodyIx) -> usize {
+        match self.records[slot].line {
             Self::NONE => Self::GROUND as usize,
             line => line as usize,
         }
     }
 
     /// Takes a line out; the last one moves there. Gives the slot of the body that moved.
-    pub(crate) fn take_line(&mut self, slot: u32) -> Option<u32> {
-        let line = self.records[slot as usize].line;
+    pub(crate) fn take_line(&mut self, slot: BodyIx) -> Option<BodyIx> {
+        let line = self.records[slot].line;
         let at = line as usize;
         self.free_count -= usize::from(self.free_lines.swap_remove(at));
         self.lines.swap_remove(at);
@@ -263,36 +268,36 @@ impl Bodies {
         self.foreseen.swap_remove(at);
         let drag = self.drag.swap_remove(at);
         self.damped -= usize::from(drag != UNDAMPED);
-        self.records[slot as usize].line = Self::NONE;
+        self.records[slot].line = Self::NONE;
         // What is noted of lines is so by their numbers.
         (self.may_deviate, self.speedy) = (true, None);
         let moved = *self.slot_of.get(at)?;
-        self.records[moved as usize].line = line;
+        self.records[moved].line = line;
         Some(moved)
     }
 
     /// Forgets a body without a line.
-    pub(crate) fn remove(&mut self, slot: u32) {
-        let record = &mut self.records[slot as usize];
+    pub(crate) fn remove(&mut self, slot: BodyIx) {
+        let record = &mut self.records[slot];
         record.live = false;
         self.free.push(slot);
     }
 
     pub(crate) fn get(&self, id: BodyId) -> Result<&Record, EngineError> {
-        let found = self.records.get(id.slot as usize);
+        let found = self.records.get(id.slot.at());
         found
             .filter(|record| record.live && record.generation == id.generation)
             .ok_or(EngineError::Stale(id))
     }
 
-    pub(crate) fn id(&self, slot: u32) -> BodyId {
-        let generation = self.records[slot as usize].generation;
+    pub(crate) fn id(&self, slot: BodyIx) -> BodyId {
+        let generation = self.records[slot].generation;
         BodyId { slot, generation }
     }
 
     /// Where a body was when it was last rebased.
-    pub(crate) fn base_of(&self, slot: u32) -> Pose {
-        let record = &self.records[slot as usize];
+    pub(crate) fn base_of(&self, slot: BodyIx) -> Pose {
+        let record = &self.records[slot];
         match record.line {
             Self::GROUND | Self::NONE => record.pose,
             line => self.base[line as usize],
@@ -300,8 +305,8 @@ impl Bodies {
     }
 
     /// Where a body is.
-    pub(crate) fn pose_of(&self, slot: u32) -> Pose {
-        let record = &self.records[slot as usize];
+    pub(crate) fn pose_of(&self, slot: BodyIx) -> Pose {
+        let record = &self.records[slot];
         match record.line {
             Self::GROUND | Self::NONE => record.pose,
             line => self.pose_at(line as usize),
@@ -330,8 +335,8 @@ impl Bodies {
     }
 
     /// Velocity of the centre of mass and spin.
-    pub(crate) fn velocity_of(&self, slot: u32) -> (Vec2, f64) {
-        match self.records[slot as usize].line {
+    pub(crate) fn velocity_of(&self, slot: BodyIx) -> (Vec2, f64) {
+        match self.records[slot].line {
             Self::NONE => (Vec2::ZERO, 0.0),
             // Adding 0 makes −0 a 0: a skipped block and one that pushes nothing give the same bits.
             line => {
@@ -342,14 +347,14 @@ impl Bodies {
     }
 
     /// Whether a body that is awake is a disc about its centre of mass.
-    pub(crate) fn is_disc(&self, slot: u32) -> bool {
+    pub(crate) fn is_disc(&self, slot: BodyIx) -> bool {
         let limit = &self.limits[self.line_of(slot)];
         limit.reach <= 0.5 * limit.extent * (1.0 + 1e-12)
     }
 
     /// Whether contacts move it.
-    pub(crate) fn is_dynamic(&self, slot: u32) -> bool {
-        self.records[slot as usize].kind == BodyKind::Dynamic
+    pub(crate) fn is_dynamic(&self, slot: BodyIx) -> bool {
+        self.records[slot].kind == BodyKind::Dynamic
     }
 
     /// Marks whatever left its base pose by its tolerance, or may until the next tick, and makes its base pose where it is.
@@ -360,7 +365,7 @@ impl Bodies {
             let went = far(line.d(), line.turn());
             let goes = far(line.v(), line.w()) * tick;
             // What waits for contacts is looked for again.
-            let waits = self.records[self.slot_of[at] as usize].placed == self.updates;
+            let waits = self.records[self.slot_of[at]].placed == self.updates;
             self.moved[at] |= waits || went > limit.tolerance || goes > limit.tolerance;
             self.foreseen[at] = Quad::new(line.v(), line.w());
             if self.moved[at] {
@@ -390,13 +395,13 @@ impl Bodies {
     }
 
     /// Whether one of two bodies was put where it is since contacts were last found.
-    pub(crate) fn were_placed(&self, slots: [u32; 2]) -> bool {
-        let placed = |slot: u32| self.records[slot as usize].placed == self.updates;
+    pub(crate) fn were_placed(&self, slots: [BodyIx; 2]) -> bool {
+        let placed = |slot: BodyIx| self.records[slot].placed == self.updates;
         slots.into_iter().any(placed)
     }
 
     /// Slots of the bodies that go far within `h` seconds.
-    pub(crate) fn fast(&self, h: f64) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn fast(&self, h: f64) -> impl Iterator<Item = BodyIx> + '_ {
         let noted = self.speedy.as_deref();
         let all = if noted.is_none() {
             2..self.lines.len()

@@ -59,9 +59,9 @@ impl Engine {
         self.wake_around(id.slot);
         let record = *self.bodies.get(id)?;
         self.drop_contacts(id.slot);
-        self.bodies.records[id.slot as usize].placed = self.bodies.updates;
+        self.bodies.records[id.slot].placed = self.bodies.updates;
         if record.kind == BodyKind::Fixed {
-            self.bodies.records[id.slot as usize].pose = pose;
+            self.bodies.records[id.slot].pose = pose;
             for number in record.pieces() {
                 self.broad.leave(number);
                 self.stand(number, pose);
@@ -102,7 +102,7 @@ impl Engine {
         let record = *self.bodies.get(id)?;
         finite("turned", turned)?;
         if record.line == Bodies::NONE || record.kind == BodyKind::Fixed {
-            self.bodies.records[id.slot as usize].turned = turned;
+            self.bodies.records[id.slot].turned = turned;
             if let Some(sleeper) = self.islands.sleeper_mut(record.island, id.slot) {
                 sleeper.turned = turned - sleeper.line.turn();
             }
@@ -147,7 +147,7 @@ impl Engine {
             ..self.settings
         })?;
         for at in 2..self.bodies.lines.len() {
-            let record = &self.bodies.records[self.bodies.slot_of[at] as usize];
+            let record = &self.bodies.records[self.bodies.slot_of[at]];
             let pull = Quad::new(gravity * record.gravity_scale, 0.0);
             self.bodies.set_pull(number(at), pull);
         }

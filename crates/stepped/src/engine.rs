@@ -19,7 +19,7 @@ use crate::rows::{
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
 use crate::whole::PutPairs;
-use crate::{EngineError, Mixed, PairRules, Settings};
+use crate::{BodyIx, EngineError, Mixed, PairRules, Settings};
 
 /// Bodies in contact, moved one sub-step after the other.
 ///
@@ -61,7 +61,7 @@ pub struct Engine {
     /// Bodies that went far in the last sub-step, or were carried by a caller since.
     pub(crate) fast_bodies: Vec<FastBody>,
     /// Bodies that continuous collision stopped where they stood in the last sub-step, and what stands in their way.
-    pub(crate) hanging: Vec<[u32; 2]>,
+    pub(crate) hanging: Vec<[BodyIx; 2]>,
     /// Lines of bodies that went far in this sub-step, and their displacements before it.
     pub(crate) far: Vec<(u32, Quad)>,
     /// Pairs of pieces that were looked at by shape.
@@ -228,8 +228,8 @@ impl Engine {
     /// Calls `found` with the tag and the box of each dynamic body, or of a piece of it, that the next search is about, after
     /// [`Self::pose_boxes`].
     pub fn new_boxes(&self, mut found: impl FnMut(u64, Aabb)) {
-        let mut tell = |slot: u32, pieces: core::ops::Range<u32>| {
-            let record = &self.bodies.records[slot as usize];
+        let mut tell = |slot: BodyIx, pieces: core::ops::Range<u32>| {
+            let record = &self.bodies.records[slot];
             if record.kind == BodyKind::Dynamic {
                 let boxes = pieces.map(|piece| self.pieces.boxes[piece as usize]);
                 found(record.tag, boxes.fold(Aabb::EMPTY, Aabb::union));

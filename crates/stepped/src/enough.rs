@@ -3,6 +3,7 @@
 //! Of n bodies at one place all n²/2 pairs overlap: 4.5 million of 3,000, 2 GB of rows. What is deep in [`ENOUGH`] others is parted
 //! by these, and a pair of two such bodies waits until one of them is deep in fewer.
 
+use crate::BodyIx;
 use crate::bodies::Bodies;
 use crate::pieces::Pieces;
 use crate::rows::{Deep, Graph};
@@ -29,21 +30,21 @@ impl DeepCounts {
     }
 
     /// There is one more between the bodies of these slots.
-    pub(crate) fn add(&mut self, bodies: &Bodies, pair: [u32; 2]) {
+    pub(crate) fn add(&mut self, bodies: &Bodies, pair: [BodyIx; 2]) {
         self.0.resize(bodies.records.len(), 0);
         for slot in pair {
-            self.0[slot as usize] += 1;
+            self.0[slot.at()] += 1;
         }
     }
 
     /// Whether the bodies of a pair ask for a contact; those that have enough are noted, by slot, where they do not.
-    pub(crate) fn asks(&self, pair: [u32; 2], waits: &mut Vec<bool>) -> bool {
-        let has = |slot: u32| self.0.get(slot as usize).is_some_and(|n| *n >= ENOUGH);
+    pub(crate) fn asks(&self, pair: [BodyIx; 2], waits: &mut Vec<bool>) -> bool {
+        let has = |slot: BodyIx| self.0.get(slot.at()).is_some_and(|n| *n >= ENOUGH);
         let asks = !pair.into_iter().all(has);
         if !asks {
             waits.resize(self.0.len(), false);
             for slot in pair {
-                waits[slot as usize] = true;
+                waits[slot.at()] = true;
             }
         }
         asks
@@ -58,13 +59,9 @@ pub(crate) fn take_many(bodies: &Bodies, pieces: &Pieces, pairs: &mut Vec<Pair>)
     let slots = |pair: &Pair| pair.slots(pieces);
     let mut counts = vec![0_u32; bodies.records.len()];
     for slot in pairs.iter().flat_map(slots) {
-        counts[slot as usize] += 1;
+        counts[slot.at()] += 1;
     }
-    let is_of_many = |pair: &mut Pair| {
-        slots(pair)
-            .iter()
-            .all(|slot| counts[*slot as usize] > ENOUGH)
-    };
+    let is_of_many = |pair: &mut Pair| slots(pair).iter().all(|slot| counts[slot.at()] > ENOUGH);
     let mut many: Vec<Pair> = pairs.extract_if(.., is_of_many).collect();
     many.sort_by_cached_key(|pair| pair.pieces.map(|piece| place(bodies, pieces, piece)));
     many

@@ -120,7 +120,7 @@ pub(crate) fn filter(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
     let suspects = graph.suspects.contacts();
     for asked in suspects.chunk_by(|a, b| a.0 == b.0) {
         let slot = bodies.slot_of[asked[0].0 as usize];
-        let record = &bodies.records[slot as usize];
+        let record = &bodies.records[slot];
         if record.kind != BodyKind::Dynamic {
             continue;
         }

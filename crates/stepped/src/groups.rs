@@ -1,5 +1,7 @@
 //! Groups of what hangs together: union by number, and what is reached from some.
 
+use crate::BodyIx;
+
 /// A forest over the numbers below a count; the root of a tree is its least number.
 #[derive(Clone, Debug)]
 pub(crate) struct Groups {
@@ -27,19 +29,19 @@ impl Groups {
     }
 }
 
-/// All that hangs together with the first: these, then the others in the order in which they are met. `lead` calls back with what a
-/// number leads to; what was seen before is not met again.
+/// All bodies that hang together with the first: these, then the others in the order in which they are met. `lead` calls back with what
+/// a body leads to; what was seen before is not met again.
 pub(crate) fn reached(
-    first: &[u32],
+    first: &[BodyIx],
     seen: &mut [bool],
-    mut lead: impl FnMut(u32, &mut dyn FnMut(u32)),
-) -> Vec<u32> {
+    mut lead: impl FnMut(BodyIx, &mut dyn FnMut(BodyIx)),
+) -> Vec<BodyIx> {
     let (mut found, mut next) = (first.to_vec(), 0);
-    first.iter().for_each(|k| seen[*k as usize] = true);
+    first.iter().for_each(|k| seen[k.at()] = true);
     while let Some(&k) = found.get(next) {
         next += 1;
         lead(k, &mut |other| {
-            if !core::mem::replace(&mut seen[other as usize], true) {
+            if !core::mem::replace(&mut seen[other.at()], true) {
                 found.push(other);
             }
         });

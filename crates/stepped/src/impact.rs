@@ -11,7 +11,7 @@ use carom_math::{Vec2, perp};
 use crate::bodies::{Bodies, number};
 use crate::pieces::Pieces;
 use crate::rows::{Arrival, Block, Colour, Graph, Law, REST, lanes};
-use crate::{BodyId, Engine};
+use crate::{BodyId, BodyIx, Engine};
 
 /// A run goes on for so many sub-steps at most: what is pressed on for longer lies there.
 const LONGEST: u32 = 16;
@@ -42,7 +42,7 @@ pub struct Impact {
 struct Run {
     /// Number of the contact, and its bodies and pieces: numbers are given anew.
     contact: u32,
-    slots: [u32; 2],
+    slots: [BodyIx; 2],
     pieces: [u32; 2],
     speed: f64,
     /// From the beginning of its first sub-step on, in s.
@@ -215,7 +215,7 @@ impl Impacts {
     }
 
     /// Forgets the impacts of a body that is taken out.
-    pub(crate) fn forget(&mut self, slot: u32) {
+    pub(crate) fn forget(&mut self, slot: BodyIx) {
         self.runs.retain(|run| !run.slots.contains(&slot));
         for (run, k) in self.runs.iter().zip(0..) {
             self.of_contact[run.contact as usize] = k;

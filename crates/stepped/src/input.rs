@@ -2,13 +2,13 @@
 
 use carom_math::{Pose, Vec2};
 
-use crate::EngineError;
 use crate::error::{finite, finite_pose, not_negative, positive};
+use crate::{BodyIx, EngineError};
 
 /// Name of a body in its engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BodyId {
-    pub(crate) slot: u32,
+    pub(crate) slot: BodyIx,
     pub(crate) generation: u32,
 }
 

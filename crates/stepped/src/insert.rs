@@ -5,7 +5,7 @@ use carom_math::Pose;
 use crate::bodies::{Bodies, number};
 use crate::groups::reached;
 use crate::pieces::{Disc, Piece};
-use crate::{BodyId, BodyInput, BodyKind, Engine, EngineError, PieceInput};
+use crate::{BodyId, BodyInput, BodyIx, BodyKind, Engine, EngineError, PieceInput};
 
 impl Engine {
     /// Adds a body made of these pieces.
@@ -34,7 +34,7 @@ impl Engine {
         let extent = extent.fold(f64::INFINITY, f64::min);
         let count = number(list.len());
         let first = self.pieces.insert(list);
-        let record = &mut self.bodies.records[id.slot as usize];
+        let record = &mut self.bodies.records[id.slot];
         (record.first_piece, record.count, record.reach) = (first, count, reach);
         if body.kind == BodyKind::Fixed {
             for number in first..first + count {
@@ -101,7 +101,7 @@ impl Engine {
         for id in ids {
             self.bodies.get(*id)?;
         }
-        let slots: Vec<u32> = ids.iter().map(|id| id.slot).collect();
+        let slots: Vec<BodyIx> = ids.iter().map(|id| id.slot).collect();
         let others = self.connected(&slots);
         self.ways.leave(&mut self.bodies, (&slots, &others), passed);
         let pulled = others.into_iter().filter(|other| !self.ways.knows(*other));
@@ -109,9 +109,9 @@ impl Engine {
     }
 
     /// The bodies that contacts connect with some, and move, also by what continuous collision did.
-    fn connected(&self, slots: &[u32]) -> Vec<u32> {
-        let moves = |other: &u32| {
-            let is_awake = self.bodies.records[*other as usize].line != Bodies::NONE;
+    fn connected(&self, slots: &[BodyIx]) -> Vec<BodyIx> {
+        let moves = |other: &BodyIx| {
+            let is_awake = self.bodies.records[*other].line != Bodies::NONE;
             is_awake && self.bodies.is_dynamic(*other)
         };
         let mut seen = vec![false; self.bodies.records.len()];
@@ -125,7 +125,7 @@ impl Engine {
         found.split_off(slots.len())
     }
 
-    pub(crate) fn drop_contacts(&mut self, slot: u32) {
+    pub(crate) fn drop_contacts(&mut self, slot: BodyIx) {
         let contacts: Vec<_> = self.graph.of_body(&self.bodies, slot).collect();
         for (id, _) in contacts {
             self.part(id);

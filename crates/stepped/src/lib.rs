@@ -37,6 +37,7 @@ mod hard;
 mod impact;
 mod input;
 mod insert;
+mod ix;
 #[cfg(test)]
 mod naive;
 mod narrow;
@@ -59,6 +60,7 @@ pub use engine::Engine;
 pub use error::EngineError;
 pub use impact::Impact;
 pub use input::{BodyId, BodyInput, BodyKind};
+pub(crate) use ix::BodyIx;
 pub use pieces::{Material, PieceInput};
 pub use read::{Contact, State};
 pub use rules::{Mixed, PairRules, Surface};

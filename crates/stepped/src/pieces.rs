@@ -9,7 +9,7 @@ use carom_math::{Pose, Vec2};
 use crate::bodies::number;
 use crate::error::{check, finite, not_negative};
 use crate::outline::{CORNERS, Outline, outline_of};
-use crate::{EngineError, PairRules, Surface};
+use crate::{BodyIx, EngineError, PairRules, Surface};
 
 /// What a surface is like.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,7 +98,7 @@ impl PieceInput {
 #[derive(Clone, Debug)]
 pub(crate) struct Piece {
     /// Slot of its body.
-    pub(crate) body: u32,
+    pub(crate) body: BodyIx,
     /// Index among the pieces of its body: part of the order in which contacts are created.
     pub(crate) ordinal: u32,
     shape: Arc<Shape>,
@@ -153,7 +153,7 @@ impl Disc {
 /// Slot of the body of a piece, and the index that it has there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Owner {
-    pub(crate) body: u32,
+    pub(crate) body: BodyIx,
     pub(crate) ordinal: u32,
     /// The body has other pieces.
     pub(crate) several: bool,
@@ -240,7 +240,7 @@ impl Pieces {
     }
 
     /// Slots of the bodies of two pieces.
-    pub(crate) fn bodies(&self, pair: [u32; 2]) -> [u32; 2] {
+    pub(crate) fn bodies(&self, pair: [u32; 2]) -> [BodyIx; 2] {
         pair.map(|piece| self.owners[piece as usize].body)
     }
 
@@ -318,7 +318,7 @@ fn outline(piece: &Piece) -> Outline {
 
 impl Piece {
     /// The convex pieces of an input.
-    pub(crate) fn of(input: &PieceInput, body: u32, first: u32) -> impl Iterator<Item = Self> {
+    pub(crate) fn of(input: &PieceInput, body: BodyIx, first: u32) -> impl Iterator<Item = Self> {
         let shape = Arc::clone(&input.shape);
         let (rounding, material, tag) = (input.radius, input.material, input.tag);
         (first..)

@@ -122,7 +122,7 @@ impl Engine {
     /// Those of [`Self::awake`] that have no contact, pushing or not.
     pub fn without_contact(&self) -> impl Iterator<Item = State> + '_ {
         let bodies = &self.bodies;
-        let contacts = |at: usize| bodies.records[bodies.slot_of[at] as usize].contacts;
+        let contacts = |at: usize| bodies.records[bodies.slot_of[at]].contacts;
         (2..bodies.lines.len())
             .filter(move |at| contacts(*at) == Bodies::NONE)
             .map(|at| self.state_at(at))
@@ -131,7 +131,7 @@ impl Engine {
     fn state_at(&self, at: usize) -> State {
         let bodies = &self.bodies;
         let slot = bodies.slot_of[at];
-        let record = &bodies.records[slot as usize];
+        let record = &bodies.records[slot];
         let line = &bodies.lines[at];
         let velocity = (line.v() + Vec2::ZERO, line.w() + 0.0);
         let before = self.ways.came(slot);
@@ -242,9 +242,9 @@ impl Engine {
 
     /// Names of all bodies, by slot.
     pub fn bodies(&self) -> impl Iterator<Item = BodyId> + '_ {
-        let live = self.bodies.records.iter().zip(0u32..);
-        live.filter(|(record, _)| record.live)
-            .map(|(_, slot)| self.bodies.id(slot))
+        let live = self.bodies.each();
+        live.filter(|(_, record)| record.live)
+            .map(|(slot, _)| self.bodies.id(slot))
     }
 
     /// All contacts, wide ones too, in no order that means anything.
@@ -300,7 +300,7 @@ impl Engine {
     #[must_use]
     pub fn energy(&self) -> (f64, f64) {
         let (mut kinetic, mut potential) = (0.0, 0.0);
-        for (record, slot) in self.bodies.records.iter().zip(0u32..) {
+        for (slot, record) in self.bodies.each() {
             if record.live && record.kind == BodyKind::Dynamic {
                 let (v, w) = self.bodies.velocity_of(slot);
                 let turns = if w == 0.0 {

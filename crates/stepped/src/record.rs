@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use carom_math::{Pose, trig};
 
+use crate::BodyIx;
 use crate::bodies::Bodies;
 use crate::input::BodyKind;
 use crate::rows::{Line, Quad};
@@ -48,7 +49,7 @@ pub(crate) struct Record {
 /// A body without its line: what waking puts back.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sleeper {
-    pub(crate) slot: u32,
+    pub(crate) slot: BodyIx,
     pub(crate) line: Line,
     pub(crate) start: Quad,
     pub(crate) pull: Quad,

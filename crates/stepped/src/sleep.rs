@@ -9,7 +9,7 @@ use carom_math::Vec2;
 use crate::bodies::{Bodies, Sleeper, number};
 use crate::groups::reached;
 use crate::update::nearness;
-use crate::{BodyId, BodyKind, Engine, EngineError};
+use crate::{BodyId, BodyIx, BodyKind, Engine, EngineError};
 
 /// Ticks between two searches for islands at rest. Fewer: an island that rests but for one body is walked for nothing;
 /// more: islands fall asleep later by as much.
@@ -30,7 +30,7 @@ pub(crate) struct Islands {
     /// How many of them were inserted asleep: they have met nothing yet.
     unmet: usize,
     /// Slots of bodies that fell asleep or woke since a caller asked.
-    changed: Vec<u32>,
+    changed: Vec<BodyIx>,
     /// Scratch of [`Engine::sleep`], by slot: false.
     seen: Vec<bool>,
 }
@@ -41,7 +41,7 @@ impl Islands {
     }
 
     /// What a sleeper goes on with once it wakes; `None` if it is awake.
-    pub(crate) fn sleeper_mut(&mut self, island: u32, slot: u32) -> Option<&mut Sleeper> {
+    pub(crate) fn sleeper_mut(&mut self, island: u32, slot: BodyIx) -> Option<&mut Sleeper> {
         let sleepers = self.asleep.get_mut(island as usize);
         let mut sleepers = sleepers.into_iter().flatten().flatten();
         sleepers.find(|sleeper| sleeper.slot == slot)
@@ -84,16 +84,16 @@ impl Engine {
     }
 
     /// Islands of which all bodies have rested for so long, in s.
-    fn islands_at_rest(&self, after: f64) -> Vec<Vec<u32>> {
+    fn islands_at_rest(&self, after: f64) -> Vec<Vec<BodyIx>> {
         let mut seen = vec![false; self.bodies.records.len()];
         let mut found = Vec::new();
         for line in 2..self.bodies.lines.len() {
             let slot = self.bodies.slot_of[line];
-            if self.bodies.rest[line] >= after && !seen[slot as usize] {
+            if self.bodies.rest[line] >= after && !seen[slot.at()] {
                 let (mut island, rests) = self.island(slot, after, &mut seen);
                 if rests {
                     // Lines depend on other islands, and contacts of the overflow colour wake in this order.
-                    island.sort_unstable_by_key(|slot| self.bodies.records[*slot as usize].birth);
+                    island.sort_unstable_by_key(|slot| self.bodies.records[*slot].birth);
                     found.push(island);
                 }
             }
@@ -103,7 +103,7 @@ impl Engine {
 
     /// The island of a body that is awake, and whether all of it has rested for so long and nothing that moves touches it. What drifts
     /// in space is not at rest, however slow: it would lose its momentum.
-    fn island(&self, slot: u32, after: f64, seen: &mut [bool]) -> (Vec<u32>, bool) {
+    fn island(&self, slot: BodyIx, after: f64, seen: &mut [bool]) -> (Vec<BodyIx>, bool) {
         let (mut rests, mut supported) = (true, false);
         let island = reached(&[slot], seen, |slot, meet| {
             rests &= self.bodies.rest[self.bodies.line_of(slot)] >= after;
@@ -126,9 +126,9 @@ impl Engine {
     }
 
     /// Whether a body may rest in space: it does not move at all, or damping stops it.
-    fn rests_unsupported(&self, slot: u32) -> bool {
+    fn rests_unsupported(&self, slot: BodyIx) -> bool {
         let (v, w) = self.bodies.velocity_of(slot);
-        let record = &self.bodies.records[slot as usize];
+        let record = &self.bodies.records[slot];
         v == Vec2::ZERO && w.abs() <= 0.0 || record.damping.into_iter().any(|rate| rate > 0.0)
     }
 
@@ -140,13 +140,13 @@ impl Engine {
     }
 
     /// Puts an island to sleep.
-    fn lay(&mut self, island: &[u32]) {
+    fn lay(&mut self, island: &[BodyIx]) {
         let number = self.islands.free.pop().unwrap_or_else(|| {
             self.islands.asleep.push(None);
             number(self.islands.asleep.len() - 1)
         });
         for &slot in island {
-            self.bodies.records[slot as usize].island = number;
+            self.bodies.records[slot].island = number;
         }
         self.islands.changed.extend(island);
         // A caller may not ask for a long time.
@@ -158,7 +158,7 @@ impl Engine {
             let ids: Vec<_> = self.graph.of_body(&self.bodies, slot).collect();
             for (id, side) in ids {
                 let contact = self.graph.contacts[id as usize];
-                let other = &self.bodies.records[contact.bodies[1 - side] as usize];
+                let other = &self.bodies.records[contact.bodies[1 - side]];
                 if other.kind == BodyKind::Dynamic && other.island != number {
                     // Near, and no part of the island: found again when one of both moves, or wakes.
                     self.part(id);
@@ -175,7 +175,7 @@ impl Engine {
                 self.graph.renumber(&self.bodies, moved);
             }
             // Others meet it where it lies: it has no line to tell how far that is from its base pose.
-            let record = &self.bodies.records[slot as usize];
+            let record = &self.bodies.records[slot];
             for piece in record.pieces() {
                 self.pieces.pose(piece, record.pose);
                 self.broad.stand(piece, self.pieces.boxes[piece as usize]);
@@ -208,7 +208,7 @@ impl Engine {
         for sleeper in sleepers {
             self.bodies.raise(sleeper, &self.settings);
             self.islands.changed.push(sleeper.slot);
-            let record = &mut self.bodies.records[sleeper.slot as usize];
+            let record = &mut self.bodies.records[sleeper.slot];
             record.island = Bodies::NONE;
             for piece in record.pieces() {
                 self.pieces.pose(piece, sleeper.base);
@@ -226,14 +226,14 @@ impl Engine {
     }
 
     /// Islands asleep that a body that stands is nearer to than `margins`.
-    fn sleepers_at(&self, slot: u32, margins: f64) -> Vec<u32> {
-        let record = &self.bodies.records[slot as usize];
+    fn sleepers_at(&self, slot: BodyIx, margins: f64) -> Vec<u32> {
+        let record = &self.bodies.records[slot];
         let mut found = Vec::new();
         for piece in record.pieces() {
             let bounds = self.pieces.boxes[piece as usize];
             self.broad.standing_in(bounds, |other| {
                 let theirs = self.pieces.list[other as usize].body;
-                let island = self.bodies.records[theirs as usize].island;
+                let island = self.bodies.records[theirs].island;
                 if island != Bodies::NONE
                     && theirs != slot
                     && nearness(&self.scene(), [piece, other]).is_some_and(|gap| gap <= margins)
@@ -248,7 +248,7 @@ impl Engine {
     }
 
     /// Those of them within `TOUCHES` that were inserted asleep.
-    fn unmet_at(&self, slot: u32) -> Vec<u32> {
+    fn unmet_at(&self, slot: BodyIx) -> Vec<u32> {
         if self.islands.unmet == 0 {
             return Vec::new();
         }
@@ -261,7 +261,7 @@ impl Engine {
     }
 
     /// Wakes what a fixed body was put into; what sleeps beside it sleeps on.
-    pub(crate) fn wake_overlapped(&mut self, slot: u32) {
+    pub(crate) fn wake_overlapped(&mut self, slot: BodyIx) {
         if self.islands.any_asleep() {
             let islands = self.sleepers_at(slot, -DISTURBS);
             self.wake_all(&islands);
@@ -277,12 +277,12 @@ impl Engine {
     }
 
     /// Wakes the island of a body, and all islands that touch it.
-    pub(crate) fn wake_around(&mut self, slot: u32) {
-        let mut islands = vec![self.bodies.records[slot as usize].island];
+    pub(crate) fn wake_around(&mut self, slot: BodyIx) {
+        let mut islands = vec![self.bodies.records[slot].island];
         for (id, side) in self.graph.of_body(&self.bodies, slot) {
             let contact = &self.graph.contacts[id as usize];
             if contact.sleeps() {
-                islands.push(self.bodies.records[contact.bodies[1 - side] as usize].island);
+                islands.push(self.bodies.records[contact.bodies[1 - side]].island);
             }
         }
         islands.extend(self.unmet_at(slot));
@@ -313,7 +313,7 @@ impl Engine {
             seen.resize(self.bodies.records.len(), false);
             let (island, _) = self.island(id.slot, 0.0, &mut seen);
             for &slot in &island {
-                seen[slot as usize] = false;
+                seen[slot.at()] = false;
                 let line = self.bodies.line_of(slot);
                 if self.bodies.moved[line] {
                     self.pose_pieces(line);
@@ -331,7 +331,7 @@ impl Engine {
         changed.sort_unstable();
         changed.dedup();
         for &slot in &changed {
-            let record = &self.bodies.records[slot as usize];
+            let record = &self.bodies.records[slot];
             if record.live {
                 tell(self.bodies.id(slot), record.island != Bodies::NONE);
             }

@@ -14,7 +14,7 @@ use crate::rows::{
     lanes, renew,
 };
 use crate::whole::PutPairs;
-use crate::{PairRules, Settings};
+use crate::{BodyIx, PairRules, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
@@ -230,7 +230,7 @@ pub(crate) fn met_asleep(
     let mut islands = Vec::new();
     for &pair in candidates {
         let slots = pair.map(|piece| pieces.list[piece as usize].body);
-        let [a, b] = slots.map(|slot| bodies.records[slot as usize].island);
+        let [a, b] = slots.map(|slot| bodies.records[slot].island);
         let island = a.min(b);
         if island == Bodies::NONE || islands.contains(&island) {
             continue;
@@ -361,7 +361,7 @@ pub(crate) fn create(
             }
         }
         if !is_whole {
-            let lines = ends.map(|slot| bodies.records[slot as usize].line);
+            let lines = ends.map(|slot| bodies.records[slot].line);
             let parts = (&*bodies, pieces);
             graph.suspects.add_short(parts, lines, pair, id);
             graph.suspects.add_seam(lines);
@@ -421,7 +421,7 @@ pub(crate) struct Pair {
 
 impl Pair {
     /// Slots of both bodies.
-    pub(crate) fn slots(self, pieces: &Pieces) -> [u32; 2] {
+    pub(crate) fn slots(self, pieces: &Pieces) -> [BodyIx; 2] {
         pieces.bodies(self.pieces)
     }
 
@@ -435,9 +435,7 @@ impl Pair {
     /// Two pieces of bodies that are awake or fixed, and that contacts move at least one of.
     fn new(bodies: &Bodies, pieces: &Pieces, pair: [u32; 2]) -> Option<Self> {
         let pair = in_order(bodies, pieces, pair);
-        let records = pieces
-            .bodies(pair)
-            .map(|slot| &bodies.records[slot as usize]);
+        let records = pieces.bodies(pair).map(|slot| &bodies.records[slot]);
         let lines = records.map(|record| record.line);
         let is_moved = records
             .iter()
@@ -453,11 +451,11 @@ impl Pair {
 /// Place of a piece in an order that memory does not change: birth of its body, and index of the piece.
 pub(crate) fn place(bodies: &Bodies, pieces: &Pieces, piece: u32) -> (u64, u32) {
     let owner = pieces.owners[piece as usize];
-    (bodies.records[owner.body as usize].birth, owner.ordinal)
+    (bodies.records[owner.body].birth, owner.ordinal)
 }
 
 /// What is little to a body must be little to the smallest piece that it has a contact with.
-fn narrow_tolerances(bodies: &mut Bodies, settings: &Settings, ends: [u32; 2], extent: f64) {
+fn narrow_tolerances(bodies: &mut Bodies, settings: &Settings, ends: [BodyIx; 2], extent: f64) {
     for slot in ends {
         let line = bodies.line_of(slot);
         // All fixed bodies have one line, and none: they never move.

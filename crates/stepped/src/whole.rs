@@ -8,11 +8,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use carom_math::Vec2;
 
-use crate::PairRules;
 use crate::bodies::Bodies;
 use crate::narrow::{Found, Scene};
 use crate::rows::{Block, Cold, Graph, lanes};
 use crate::update::{Fresh, Pair, place};
+use crate::{BodyIx, PairRules};
 
 /// Cosine of the angle between the row of a piece and the way out of the whole shapes that it leads. −2, so that any row does: two L
 /// shapes stay 0.20 m in each other. From 0 to 2 all pairs of concave bodies come out that are tried, and a hundred L shapes at one
@@ -24,9 +24,9 @@ const FAR: f64 = 0.5;
 
 /// Slots of two bodies each that were put into each other and are not apart.
 pub(crate) struct PutPairs {
-    put: BTreeSet<[u32; 2]>,
+    put: BTreeSet<[BodyIx; 2]>,
     /// Those that have a row of whole shapes.
-    whole: BTreeSet<[u32; 2]>,
+    whole: BTreeSet<[BodyIx; 2]>,
 }
 
 impl PutPairs {
@@ -37,7 +37,7 @@ impl PutPairs {
         }
     }
 
-    pub(crate) fn contains(&self, bodies: &Bodies, slots: [u32; 2]) -> bool {
+    pub(crate) fn contains(&self, bodies: &Bodies, slots: [BodyIx; 2]) -> bool {
         bodies.were_placed(slots) || self.put.contains(&slots)
     }
 
@@ -123,7 +123,7 @@ impl PutPairs {
         });
         cut.sort_by_cached_key(|pair| pair.pieces.map(|piece| place(scene.bodies, pieces, piece)));
         cut.dedup_by_key(|pair| pair.slots(pieces));
-        let mut rows: BTreeMap<[u32; 2], Vec<(Vec2, f64)>> = BTreeMap::new();
+        let mut rows: BTreeMap<[BodyIx; 2], Vec<(Vec2, f64)>> = BTreeMap::new();
         if !cut.is_empty() {
             for fresh in fresh.iter().filter(|fresh| fresh.manifold.gap() < 0.0) {
                 let of_bodies = rows.entry(fresh.pair.slots(pieces)).or_default();

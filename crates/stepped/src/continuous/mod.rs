@@ -21,7 +21,7 @@ use carom_math::{Pose, Vec2};
 
 use crate::bodies::{Bodies, Limit};
 use crate::rows::{Quad, turn_shifted};
-use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings};
+use crate::{BodyId, BodyIx, BodyKind, Engine, EngineError, PairRules, Settings};
 use moving::{Fast, Moving};
 use touching::Touching;
 
@@ -34,7 +34,7 @@ const HANGS: f64 = 0.125;
 /// The motion of a fast body through the rest of a sub-step.
 #[derive(Clone, Debug)]
 pub(crate) struct FastBody {
-    slot: u32,
+    slot: BodyIx,
     /// Displacement and turn at its start, since the base pose.
     from: (Vec2, f64),
     /// Rows do not hold moving bodies off what turns so far.
@@ -144,7 +144,7 @@ impl Engine {
             0.0
         };
         for (slot, (from, velocity)) in ways {
-            let record = &self.bodies.records[slot as usize];
+            let record = &self.bodies.records[slot];
             found(
                 record.tag,
                 way_box(from, velocity, left).grown(record.reach + passed),
@@ -240,10 +240,10 @@ impl Engine {
         body: &Moving,
         from: Vec2,
         shift: Vec2,
-        hung: &[[u32; 2]],
-    ) -> Option<[u32; 2]> {
+        hung: &[[BodyIx; 2]],
+    ) -> Option<[BodyIx; 2]> {
         let pair = [body.slot, body.touched?];
-        let line = self.bodies.records[body.slot as usize].line;
+        let line = self.bodies.records[body.slot].line;
         let at = line as usize;
         let went = (self.bodies.lines[at].d() - from).length();
         if self.bodies.is_dynamic(pair[1]) || went > HANGS * (went + shift.length()) {
@@ -261,8 +261,8 @@ impl Engine {
     }
 
     /// Lines of two bodies, if contacts alone move both.
-    fn free_pair(&self, slots: [u32; 2]) -> Option<[u32; 2]> {
-        let lines = slots.map(|slot| self.bodies.records[slot as usize].line);
+    fn free_pair(&self, slots: [BodyIx; 2]) -> Option<[u32; 2]> {
+        let lines = slots.map(|slot| self.bodies.records[slot].line);
         let is_free = |line: &u32| *line != Bodies::NONE && self.bodies.is_free(*line);
         lines.iter().all(is_free).then_some(lines)
     }
@@ -271,7 +271,8 @@ impl Engine {
     /// normal is known, or no row would hold them.
     fn deflect(&self, fast: &mut Fast, touch: &Touching) {
         let slots = [fast.noted[touch.a].slot, touch.other];
-        let inverse_mass = |slot: u32| self.bodies.lines[self.bodies.line_of(slot)].inverse_mass();
+        let inverse_mass =
+            |slot: BodyIx| self.bodies.lines[self.bodies.line_of(slot)].inverse_mass();
         let of_a = touch.b.map_or(1.0, |_| {
             let [a, b] = slots.map(inverse_mass);
             a / (a + b)
@@ -326,12 +327,12 @@ impl Engine {
         self.bodies.moved[at] = true;
         self.bodies
             .deviating
-            .push(self.bodies.records[body.slot as usize].line);
+            .push(self.bodies.records[body.slot].line);
         shift
     }
 
     /// The motion that brings a body to its pose within `left` seconds: from a displacement, or at its velocity.
-    fn motion(&self, slot: u32, from: Option<(Vec2, f64)>, left: f64) -> Motion {
+    fn motion(&self, slot: BodyIx, from: Option<(Vec2, f64)>, left: f64) -> Motion {
         let at = self.bodies.line_of(slot);
         if at < 2 {
             let pose = self.bodies.pose_of(slot);
@@ -354,7 +355,7 @@ impl Engine {
     }
 
     fn moving(&self, body: &FastBody, left: f64) -> Moving {
-        let record = &self.bodies.records[body.slot as usize];
+        let record = &self.bodies.records[body.slot];
         let motion = self.motion(body.slot, Some(body.from), left);
         Moving {
             slot: body.slot,
@@ -368,7 +369,7 @@ impl Engine {
 
     /// Whether the centre of mass of a fast body leaves the swept boxes of the tick.
     fn leaves_boxes(&self, body: &FastBody) -> bool {
-        let record = &self.bodies.records[body.slot as usize];
+        let record = &self.bodies.records[body.slot];
         let at = record.line as usize;
         let base = self.bodies.base[at].position;
         let (from, to) = (base + body.from.0, base + self.bodies.lines[at].d());

@@ -5,8 +5,8 @@ use carom_geometry::Aabb;
 use carom_math::{SimTime, Vec2};
 
 use super::{FastBody, way_box};
-use crate::Engine;
 use crate::rows::Shifted;
+use crate::{BodyIx, Engine};
 
 /// A body that touches so often within a sub-step is stopped there.
 const MOST: u8 = 3;
@@ -14,13 +14,13 @@ const MOST: u8 = 3;
 /// The motion of a fast body during the search.
 #[derive(Clone, Copy)]
 pub(super) struct Moving {
-    pub(super) slot: u32,
+    pub(super) slot: BodyIx,
     pub(super) birth: u64,
     pub(super) motion: Motion,
     pub(super) carried: bool,
     /// How often it touched so far, and the slot of the body that it touched first.
     pub(super) touches: u8,
-    pub(super) touched: Option<u32>,
+    pub(super) touched: Option<BodyIx>,
 }
 
 impl Moving {
@@ -74,7 +74,7 @@ impl Fast {
         self.moving[k].get_or_insert_with(|| engine.moving(&self.noted[k], self.left))
     }
 
-    pub(super) fn find(&self, slot: u32) -> Option<usize> {
+    pub(super) fn find(&self, slot: BodyIx) -> Option<usize> {
         let (noted, touched) = self.noted.split_at(self.in_order);
         let is_it = |body: &FastBody| body.slot == slot;
         let known = noted.binary_search_by_key(&slot, |body| body.slot).ok();
@@ -104,6 +104,6 @@ impl Fast {
             || engine.way(body, self.left),
             |body| (body.motion.centre, body.motion.velocity),
         );
-        way_box(from, velocity, time).grown(engine.bodies.records[body.slot as usize].reach)
+        way_box(from, velocity, time).grown(engine.bodies.records[body.slot].reach)
     }
 }

@@ -10,7 +10,7 @@ use super::touching::Touching;
 use super::{Fast, FastBody, Moving, SHORT};
 use crate::bodies::{Bodies, number};
 use crate::narrow::arc;
-use crate::{Engine, PairRules, Settings};
+use crate::{BodyIx, Engine, PairRules, Settings};
 
 impl Engine {
     /// Enters the first touches of fast body `k` with others from `span.0` to `span.1` seconds on.
@@ -36,18 +36,18 @@ impl Engine {
             self.broad.movers_in(&self.pieces, bounds, found);
         }
         for &other in &fast.leaving {
-            let record = &self.bodies.records[fast.noted[other].slot as usize];
+            let record = &self.bodies.records[fast.noted[other].slot];
             if fast.bounds(self, other, span.1).overlaps(bounds) {
                 others.extend(record.pieces());
             }
         }
         self.first_parts(&mut others);
-        let birth = self.bodies.records[fast.noted[k].slot as usize].birth;
+        let birth = self.bodies.records[fast.noted[k].slot].birth;
         for piece in others {
             let slot = self.pieces.list[piece as usize].body;
             let partner = fast.find(slot);
             // A pair of which both search among moving bodies is searched once.
-            let earlier = self.bodies.records[slot as usize].birth < birth;
+            let earlier = self.bodies.records[slot].birth < birth;
             let again = partner.is_some_and(|other| earlier && fast.sought[other][1]);
             if slot != fast.noted[k].slot && !again {
                 self.search_piece(fast, (k, partner), piece, span, rules, touches);
@@ -61,7 +61,7 @@ impl Engine {
             return [true, noted.is_unforeseen()];
         }
         let Settings { margin, tick, .. } = self.settings;
-        let pieces = self.bodies.records[noted.slot as usize].pieces();
+        let pieces = self.bodies.records[noted.slot].pieces();
         let beside = pieces.map(|piece| self.broad.beside(&self.pieces, piece, (margin, tick)));
         let [standing, movers] = beside.fold([false; 2], |[a, b], [c, d]| [a | c, b | d]);
         [standing, movers && noted.turns]
@@ -78,7 +78,7 @@ impl Engine {
             let moves = fast.noted[k].is_unforeseen() && !movers;
             for piece in 0..number(self.pieces.list.len()) {
                 let other = &self.pieces.list[piece as usize];
-                let line = self.bodies.records[other.body as usize].line;
+                let line = self.bodies.records[other.body].line;
                 let stands = [Bodies::GROUND, Bodies::NONE].contains(&line);
                 let is_left_out = if stands { !standing } else { moves };
                 if self.pieces.boxes[piece as usize].is_valid()
@@ -133,7 +133,7 @@ impl Engine {
         rules: &dyn PairRules,
         touches: &mut BinaryHeap<Touching>,
     ) {
-        let record = &self.bodies.records[fast.noted[changed].slot as usize];
+        let record = &self.bodies.records[fast.noted[changed].slot];
         let bounds = fast.bounds(self, changed, span.1);
         let mut others = fast.unboxed.clone();
         self.broad.pieces_in(&self.pieces, bounds, |piece| {
@@ -191,7 +191,7 @@ impl Engine {
             return;
         }
         if let Some((wait, normal)) = self.first_touch(&body, (piece, &motion), span, rules) {
-            let birth = self.bodies.records[theirs.body as usize].birth;
+            let birth = self.bodies.records[theirs.body].birth;
             let moves = partner.filter(|other| !fast.is_stopped(*other));
             // Which it has a row with, if perhaps none that holds it.
             let mut neighbours = self.graph.neighbours(&self.bodies, body.slot);
@@ -216,13 +216,13 @@ impl Engine {
         (from, to): (f64, f64),
         rules: &dyn PairRules,
     ) -> Option<(f64, Option<Vec2>)> {
-        let mine = &self.bodies.records[body.slot as usize];
+        let mine = &self.bodies.records[body.slot];
         let start = SimTime::ZERO + from;
         let (own, other) = (body.motion.rebased(start), motion.rebased(start));
         let target = self.pieces.list[piece as usize].shape();
         let between = own.pose_at(start).inverse() * other.pose_at(start);
         // By no more than this do they come nearer.
-        let reach = self.bodies.records[self.pieces.list[piece as usize].body as usize].reach;
+        let reach = self.bodies.records[self.pieces.list[piece as usize].body].reach;
         let turns = arc(own.spin, mine.reach) + arc(other.spin, reach);
         let nearing = ((own.velocity - other.velocity).length() + turns) * (to - from);
         let mut first: Option<(f64, Option<Vec2>)> = None;
@@ -270,12 +270,12 @@ impl Engine {
     }
 
     /// Whether a row of two pieces is there that a body on its way cannot turn out of.
-    fn is_held(&self, pair: [u32; 2], slot: u32) -> bool {
+    fn is_held(&self, pair: [u32; 2], slot: BodyIx) -> bool {
         let at = self.bodies.line_of(slot);
         let turn = self.bodies.lines[at].w() * self.law.h;
         // One sweep may leave much of a blow: what stands is sought whether there is a row or not.
-        let stands = self.bodies.records[self.pieces.list[pair[1] as usize].body as usize].line
-            == Bodies::GROUND;
+        let stands =
+            self.bodies.records[self.pieces.list[pair[1] as usize].body].line == Bodies::GROUND;
         !stands && self.known.contains(pair) && !self.bodies.limits[at].is_far(0.0, turn)
     }
 }

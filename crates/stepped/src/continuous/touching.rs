@@ -2,6 +2,7 @@
 
 use core::cmp::Ordering;
 
+use crate::BodyIx;
 use carom_math::Vec2;
 
 /// A touch of fast body `a`, `wait` seconds on, with a piece of another body; `b`: that body if it is fast and moves.
@@ -12,7 +13,7 @@ pub(super) struct Touching {
     pub(super) a: usize,
     pub(super) b: Option<usize>,
     /// Slot of the other body, fast or not.
-    pub(super) other: u32,
+    pub(super) other: BodyIx,
     /// How often both had touched when it was found: after a later touch they go elsewhere.
     pub(super) touches: [u8; 2],
     /// Unit normal from A to the other body; none if it is not known, or they are stopped there.

@@ -3,9 +3,9 @@
 //!
 //! Whether an island does is a pure function of its bodies and contacts.
 
-use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::Graph;
+use crate::{BodyIx, Settings};
 
 /// Which islands a rule admits: by points of contact, as matrices are dense, and by bodies.
 #[derive(Clone, Copy)]
@@ -85,7 +85,7 @@ pub(super) struct Search {
     /// By slot.
     known: Vec<Known>,
     /// Bodies and contacts of a component.
-    slots: Vec<u32>,
+    slots: Vec<BodyIx>,
     contacts: Vec<u32>,
 }
 
@@ -101,7 +101,7 @@ pub(super) fn find(
     for id in graph.unequal_awake(bodies) {
         search.known.resize(bodies.records.len(), Known::Nothing);
         let first = graph.contacts[id as usize].bodies[0];
-        if search.known[first as usize] == Known::Nothing
+        if search.known[first.at()] == Known::Nothing
             && search.component(graph, bodies, first, UNDER_LOAD)
             && search
                 .contacts
@@ -127,8 +127,8 @@ fn find_fast(graph: &Graph, bodies: &Bodies, h: f64, search: &mut Search, found:
         return;
     }
     search.begin(graph, bodies, found);
-    let mut ask = |first: u32| {
-        if search.known[first as usize] == Known::Nothing
+    let mut ask = |first: BodyIx| {
+        if search.known[first.at()] == Known::Nothing
             && search.component(graph, bodies, first, WITH_FAST)
         {
             found.push(search.found(false));
@@ -161,8 +161,8 @@ fn find_small(
     }
     search.begin(graph, bodies, found);
     for &slot in &bodies.slot_of {
-        let is_asked = slot != Bodies::NONE
-            && search.known[slot as usize] == Known::Nothing
+        let is_asked = slot != BodyIx::NONE
+            && search.known[slot.at()] == Known::Nothing
             && bodies.is_dynamic(slot)
             && (admits.bodies > 0 || bodies.is_disc(slot));
         if is_asked
@@ -188,13 +188,13 @@ impl Search {
         self.known.resize(bodies.records.len(), Known::Nothing);
         let contacts = found.iter().flat_map(|island| &island.contacts);
         for slot in contacts.flat_map(|id| graph.contacts[*id as usize].bodies) {
-            self.known[slot as usize] = Known::Asked;
+            self.known[slot.at()] = Known::Asked;
         }
     }
 
     /// Finds the contacts of the component of a body: what hangs together by rows, whether these push or not, as hard and soft rows
     /// share no body that moves. False if it is too large, or a contact of it is in the overflow colour.
-    fn component(&mut self, graph: &Graph, bodies: &Bodies, first: u32, admits: Admits) -> bool {
+    fn component(&mut self, graph: &Graph, bodies: &Bodies, first: BodyIx, admits: Admits) -> bool {
         let Self {
             known,
             slots,
@@ -205,7 +205,7 @@ impl Search {
         contacts.clear();
         let (mut next, mut points, mut hard, mut discs) = (0, 0, false, true);
         let mut fits = true;
-        known[first as usize] = Known::Asked;
+        known[first.at()] = Known::Asked;
         while let Some(&slot) = slots.get(next).filter(|_| fits) {
             next += 1;
             discs &= bodies.is_disc(slot);
@@ -221,9 +221,9 @@ impl Search {
                 }
                 hard |= contact.is_hard();
                 fits &= contact.mask() != 0;
-                if moves && known[other as usize] != Known::Asked {
-                    fits &= known[other as usize] != Known::Large;
-                    known[other as usize] = Known::Asked;
+                if moves && known[other.at()] != Known::Asked {
+                    fits &= known[other.at()] != Known::Large;
+                    known[other.at()] = Known::Asked;
                     slots.push(other);
                 }
                 // All but the first body have a contact each.
@@ -237,7 +237,7 @@ impl Search {
         let fits = fits && (hard || points <= admits.comes);
         if !fits {
             for slot in slots {
-                known[*slot as usize] = Known::Large;
+                known[slot.at()] = Known::Large;
             }
         }
         fits
@@ -251,7 +251,7 @@ fn is_borne(graph: &Graph, bodies: &Bodies, id: u32) -> bool {
     if !Graph::is_unequal(bodies, ends) {
         return false;
     }
-    let mass = |slot: u32| bodies.records[slot as usize].mass;
+    let mass = |slot: BodyIx| bodies.records[slot].mass;
     let side = usize::from(mass(ends[1]) < mass(ends[0]));
     let (light, heavy) = (ends[side], ends[1 - side]);
     // Normals away from the body on `side`.

@@ -9,6 +9,7 @@ use carom_math::Vec2;
 use super::free::FreePairs;
 use super::graph::Graph;
 use super::law::Law;
+use crate::BodyIx;
 use crate::bodies::Bodies;
 
 /// Contacts that are too deep for the sweeps.
@@ -60,7 +61,7 @@ impl Deep {
     }
 
     /// Slots of the bodies of each of them.
-    pub(crate) fn pairs(&self, graph: &Graph) -> impl Iterator<Item = [u32; 2]> {
+    pub(crate) fn pairs(&self, graph: &Graph) -> impl Iterator<Item = [BodyIx; 2]> {
         let deep = self.contacts.iter().filter(|id| graph.is_deep(**id));
         deep.map(|id| graph.contacts[*id as usize].bodies)
     }

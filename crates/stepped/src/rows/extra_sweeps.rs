@@ -8,6 +8,7 @@ use super::graph::Graph;
 use super::kernel::Pass;
 use super::law::Law;
 use super::plain::row;
+use crate::BodyIx;
 use crate::bodies::{Bodies, BodyKind};
 use crate::groups::Groups;
 
@@ -43,14 +44,14 @@ pub(crate) struct ExtraSweeps {
 
 impl Graph {
     /// Whether a contact is between two bodies of very different mass.
-    pub(crate) fn is_unequal(bodies: &Bodies, ends: [u32; 2]) -> bool {
+    pub(crate) fn is_unequal(bodies: &Bodies, ends: [BodyIx; 2]) -> bool {
         ratio(bodies, ends) > UNEQUAL
     }
 }
 
 /// How many times as heavy the heavier of two dynamic bodies is; 1 if they are not.
-fn ratio(bodies: &Bodies, ends: [u32; 2]) -> f64 {
-    let [a, b] = ends.map(|slot| &bodies.records[slot as usize]);
+fn ratio(bodies: &Bodies, ends: [BodyIx; 2]) -> f64 {
+    let [a, b] = ends.map(|slot| &bodies.records[slot]);
     if a.kind != BodyKind::Dynamic || b.kind != BodyKind::Dynamic {
         return 1.0;
     }
@@ -76,14 +77,14 @@ impl ExtraSweeps {
         graph.unequal = unequal;
         let graph = &*graph;
         // Light bodies, and the greatest ratio that each has to bear.
-        let mut light: Vec<(u32, f64)> = Vec::new();
+        let mut light: Vec<(BodyIx, f64)> = Vec::new();
         for &id in &graph.unequal {
             let contact = &graph.contacts[id as usize];
             if contact.sleeps() || contact.is_hard() {
                 continue;
             }
             let [a, b] = contact.bodies;
-            let lighter = bodies.records[a as usize].mass < bodies.records[b as usize].mass;
+            let lighter = bodies.records[a].mass < bodies.records[b].mass;
             light.push((if lighter { a } else { b }, ratio(bodies, contact.bodies)));
         }
         light.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
@@ -94,7 +95,7 @@ impl ExtraSweeps {
         for ((slot, _), k) in light.iter().zip(0u32..) {
             for other in graph.neighbours(bodies, *slot).chain([*slot]) {
                 if bodies.is_dynamic(other) {
-                    let first = &mut self.owner[other as usize];
+                    let first = &mut self.owner[other.at()];
                     if *first == u32::MAX {
                         *first = k;
                     }

@@ -3,10 +3,10 @@
 use super::block::Block;
 use super::block::{LANES, Pressed};
 use super::colour::Colour;
-use crate::Surface;
 use crate::bodies::{Bodies, BodyKind, number};
 use crate::ghost::Suspects;
 use crate::narrow::Manifold;
+use crate::{BodyIx, Surface};
 
 /// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
 pub(crate) const COLOURS: usize = 64;
@@ -32,7 +32,7 @@ const END: u32 = u32::MAX;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
     /// Slots of A and B: A was inserted first.
-    pub(crate) bodies: [u32; 2],
+    pub(crate) bodies: [BodyIx; 2],
     pub(crate) pieces: [u32; 2],
     pub(crate) colour: u32,
     /// The colour that it had awake.
@@ -141,7 +141,7 @@ impl Graph {
     pub(crate) fn insert(
         &mut self,
         bodies: &mut Bodies,
-        ends: [u32; 2],
+        ends: [BodyIx; 2],
         pieces: [u32; 2],
         (manifold, deepest, (by, is_whole)): (&Manifold, f64, (Pressed, bool)),
         surface: Surface,
@@ -157,7 +157,7 @@ impl Graph {
             previous: [END; 2],
         };
         for side in [0, 1] {
-            let head = &mut bodies.records[ends[side] as usize].contacts;
+            let head = &mut bodies.records[ends[side]].contacts;
             contact.next[side] = *head;
             if *head != END {
                 let (other, its) = (*head >> 1, *head & 1);
@@ -191,13 +191,13 @@ impl Graph {
         let mut taken = 0;
         for side in [0, 1] {
             if dynamic[side] {
-                taken |= bodies.records[ends[side] as usize].colours;
+                taken |= bodies.records[ends[side]].colours;
             }
         }
         let colour = colour_for(taken, dynamic == [true, true]);
         for side in [0, 1] {
             if dynamic[side] && colour < COLOURS {
-                bodies.records[ends[side] as usize].colours |= 1 << colour;
+                bodies.records[ends[side]].colours |= 1 << colour;
             }
         }
         let index = self.colours[colour].push(colour == COLOURS, id, contact.pieces);
@@ -205,11 +205,11 @@ impl Graph {
         let (k, lane) = contact.place();
         let colour = &mut self.colours[colour];
         let block = &mut colour.blocks[k];
-        block.a[lane] = bodies.records[ends[0] as usize].line;
-        block.b[lane] = bodies.records[ends[1] as usize].line;
+        block.a[lane] = bodies.records[ends[0]].line;
+        block.b[lane] = bodies.records[ends[1]].line;
         block.mu[lane] = surface.friction;
         block.put(lane, manifold);
-        let records = ends.map(|slot| &bodies.records[slot as usize]);
+        let records = ends.map(|slot| &bodies.records[slot]);
         let are_free = records.iter().all(|record| bodies.is_free(record.line));
         let cold = &mut colour.cold[k];
         if cold.note_depth((block, lane), &bodies.lines, deepest, (by, are_free)) {
@@ -231,7 +231,7 @@ impl Graph {
         self.clear_warm_start(bodies, id);
         self.unlink(bodies, id);
         for (slot, line) in contact.bodies.into_iter().zip([a, b]) {
-            let record = &mut bodies.records[slot as usize];
+            let record = &mut bodies.records[slot];
             if record.kind == BodyKind::Dynamic {
                 record.colours &= !contact.mask();
                 if record.contacts == END {
@@ -270,7 +270,7 @@ impl Graph {
         for side in [0, 1] {
             let (next, previous) = (contact.next[side], contact.previous[side]);
             if previous == END {
-                bodies.records[contact.bodies[side] as usize].contacts = next;
+                bodies.records[contact.bodies[side]].contacts = next;
             } else {
                 self.contacts[(previous >> 1) as usize].next[(previous & 1) as usize] = next;
             }
@@ -281,8 +281,12 @@ impl Graph {
     }
 
     /// Numbers of a body's contacts, the newest first, each with the side on which the body is.
-    pub(crate) fn of_body(&self, bodies: &Bodies, slot: u32) -> impl Iterator<Item = (u32, usize)> {
-        let mut at = bodies.records[slot as usize].contacts;
+    pub(crate) fn of_body(
+        &self,
+        bodies: &Bodies,
+        slot: BodyIx,
+    ) -> impl Iterator<Item = (u32, usize)> {
+        let mut at = bodies.records[slot].contacts;
         core::iter::from_fn(move || {
             if at == END {
                 return None;
@@ -294,15 +298,15 @@ impl Graph {
     }
 
     /// The other bodies of its contacts, in their order: once for each.
-    pub(crate) fn neighbours(&self, bodies: &Bodies, slot: u32) -> impl Iterator<Item = u32> {
+    pub(crate) fn neighbours(&self, bodies: &Bodies, slot: BodyIx) -> impl Iterator<Item = BodyIx> {
         let contacts = self.of_body(bodies, slot);
         contacts.map(|(id, side)| self.contacts[id as usize].bodies[1 - side])
     }
 
     /// Tells the rows of a body that it has another line.
-    pub(crate) fn renumber(&mut self, bodies: &Bodies, slot: u32) {
-        let line = bodies.records[slot as usize].line;
-        let mut at = bodies.records[slot as usize].contacts;
+    pub(crate) fn renumber(&mut self, bodies: &Bodies, slot: BodyIx) {
+        let line = bodies.records[slot].line;
+        let mut at = bodies.records[slot].contacts;
         while at != END {
             let (id, side) = (at >> 1, (at & 1) as usize);
             let contact = self.contacts[id as usize];

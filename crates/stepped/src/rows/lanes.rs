@@ -5,9 +5,9 @@ use carom_math::{Vec2, perp};
 use super::block::{Block, Cold, OPEN, lanes};
 use super::colour::Colour;
 use super::graph::{ASLEEP, Graph, HARD};
-use crate::Surface;
 use crate::bodies::Bodies;
 use crate::narrow::Manifold;
+use crate::{BodyIx, Surface};
 
 impl Graph {
     /// The block and lane of a contact.
@@ -51,17 +51,17 @@ impl Graph {
     }
 
     /// Slots of the bodies of each row of whole shapes: all of them are deep.
-    pub(crate) fn whole(&self) -> impl Iterator<Item = [u32; 2]> {
+    pub(crate) fn whole(&self) -> impl Iterator<Item = [BodyIx; 2]> {
         self.deep_with(|cold| cold.whole)
     }
 
     /// Slots of bodies that were put into each other and are not apart.
-    pub(crate) fn put(&self) -> impl Iterator<Item = [u32; 2]> {
+    pub(crate) fn put(&self) -> impl Iterator<Item = [BodyIx; 2]> {
         self.deep_with(|cold| cold.put)
     }
 
     /// Slots of the bodies of each deep contact that has a bit.
-    fn deep_with(&self, bits: fn(&Cold) -> u8) -> impl Iterator<Item = [u32; 2]> {
+    fn deep_with(&self, bits: fn(&Cold) -> u8) -> impl Iterator<Item = [BodyIx; 2]> {
         let has = move |(cold, lane): (&Cold, usize)| bits(cold) >> lane & 1 == 1;
         let deep = self.deep.iter();
         let deep = deep.filter(move |id| self.cold(**id).is_some_and(has));
@@ -97,7 +97,7 @@ impl Graph {
     /// Place of a contact in an order that memory does not change: by births of its bodies, then by pieces.
     pub(crate) fn order(&self, bodies: &Bodies, id: u32) -> ([u64; 2], [u32; 2], u32) {
         let contact = &self.contacts[id as usize];
-        let birth = |slot: u32| bodies.records[slot as usize].birth;
+        let birth = |slot: BodyIx| bodies.records[slot].birth;
         (contact.bodies.map(birth), contact.pieces, id)
     }
 

@@ -43,13 +43,11 @@ impl Graph {
         let (to, lines, home) = if sleeps {
             (ASLEEP, [0; 2], contact.colour)
         } else {
-            let lines = contact
-                .bodies
-                .map(|slot| bodies.records[slot as usize].line);
+            let lines = contact.bodies.map(|slot| bodies.records[slot].line);
             (contact.home as usize, lines, contact.home)
         };
         for slot in contact.bodies {
-            let record = &mut bodies.records[slot as usize];
+            let record = &mut bodies.records[slot];
             if record.kind == BodyKind::Dynamic {
                 record.colours = if sleeps {
                     record.colours & !bit(home)

@@ -4,6 +4,7 @@ use carom_math::Vec2;
 
 use super::line::{Line, Quad, quotient};
 use super::shifted::Shifted;
+use crate::BodyIx;
 use crate::bodies::Bodies;
 
 /// Velocities with which free bodies went through the last sub-step: all impulses acted as it began, and what displaced the bodies and
@@ -12,13 +13,13 @@ use crate::bodies::Bodies;
 pub(crate) struct Ways {
     noted: bool,
     /// By slot, in order: velocities with which bodies came to it. What `start` tells of them lacks impulses of impacts.
-    came: Vec<(u32, Quad)>,
+    came: Vec<(BodyIx, Quad)>,
     /// By line: velocities that displaced the bodies, and where these brought them.
     displaced: Vec<(Quad, Quad)>,
     /// By slot, in order.
-    lack: Vec<(u32, Lack)>,
+    lack: Vec<(BodyIx, Lack)>,
     /// Slots of pairs that continuous collision shifted.
-    met: Vec<[u32; 2]>,
+    met: Vec<[BodyIx; 2]>,
 }
 
 /// What the velocity on the way through a sub-step lacks of that at its end.
@@ -52,7 +53,7 @@ impl Ways {
     pub(crate) fn start(&mut self, bodies: &Bodies) {
         self.came.clear();
         if self.noted {
-            let came = |(line, slot): (&Line, &u32)| (*slot, Quad::new(line.v(), line.w()));
+            let came = |(line, slot): (&Line, &BodyIx)| (*slot, Quad::new(line.v(), line.w()));
             let lines = bodies.lines.iter().zip(&bodies.slot_of).skip(2);
             self.came.extend(lines.map(came));
             self.came.sort_unstable_by_key(|came| came.0);
@@ -117,8 +118,8 @@ impl Ways {
     }
 
     /// What continuous collision shifted a body against, by slot.
-    pub(crate) fn met(&self, slot: u32) -> impl Iterator<Item = u32> + '_ {
-        let other = move |pair: &[u32; 2]| {
+    pub(crate) fn met(&self, slot: BodyIx) -> impl Iterator<Item = BodyIx> + '_ {
+        let other = move |pair: &[BodyIx; 2]| {
             let side = pair.iter().position(|one| *one == slot)?;
             Some(pair[1 - side])
         };
@@ -135,7 +136,7 @@ impl Ways {
     pub(crate) fn leave(
         &mut self,
         bodies: &mut Bodies,
-        (slots, others): (&[u32], &[u32]),
+        (slots, others): (&[BodyIx], &[BodyIx]),
         passed: f64,
     ) {
         for &other in others {
@@ -153,10 +154,10 @@ impl Ways {
 
     /// From here on the way of a body leads where its velocity tells: what it was to add yet is not given back by the spins of what it
     /// met.
-    fn leave_rest(&self, bodies: &mut Bodies, slot: u32, left: &Lack, part: f64) {
-        let inertia = |slot: u32| bodies.lines[bodies.line_of(slot)].inertia();
+    fn leave_rest(&self, bodies: &mut Bodies, slot: BodyIx, left: &Lack, part: f64) {
+        let inertia = |slot: BodyIx| bodies.lines[bodies.line_of(slot)].inertia();
         let rest = (left.drift - left.twist * inertia(slot)) * part;
-        let mut met: Vec<u32> = self.met(slot).collect();
+        let mut met: Vec<BodyIx> = self.met(slot).collect();
         met.retain(|slot| inertia(*slot) > 0.0);
         let whole: f64 = met.iter().map(|slot| inertia(*slot)).sum();
         if rest != 0.0 {
@@ -166,32 +167,32 @@ impl Ways {
         }
     }
 
-    pub(crate) fn came(&self, slot: u32) -> Option<(Vec2, f64)> {
+    pub(crate) fn came(&self, slot: BodyIx) -> Option<(Vec2, f64)> {
         let known = self.came.binary_search_by_key(&slot, |came| came.0).ok()?;
         let (_, came) = &self.came[known];
         Some((came.v(), came.w()))
     }
 
     /// Whether it is known how a body went through the last sub-step.
-    pub(crate) fn knows(&self, slot: u32) -> bool {
+    pub(crate) fn knows(&self, slot: BodyIx) -> bool {
         self.lack(slot).is_some()
     }
 
     /// What the velocity of a body on its way lacks of that at the end of the sub-step, as it begins and as it ends.
-    pub(crate) fn lack(&self, slot: u32) -> Option<[(Vec2, f64); 2]> {
+    pub(crate) fn lack(&self, slot: BodyIx) -> Option<[(Vec2, f64); 2]> {
         let known = self.lack.binary_search_by_key(&slot, |lack| lack.0).ok()?;
         Some([0.0, 1.0].map(|passed| self.lack[known].1.at(passed)))
     }
 
-    fn lack_mut(&mut self, slot: u32) -> Option<&mut Lack> {
+    fn lack_mut(&mut self, slot: BodyIx) -> Option<&mut Lack> {
         let known = self.lack.binary_search_by_key(&slot, |lack| lack.0).ok()?;
         Some(&mut self.lack[known].1)
     }
 }
 
 /// Changes the velocity of a body that is awake.
-fn push(bodies: &mut Bodies, slot: u32, v: Vec2, w: f64) {
-    let line = bodies.records[slot as usize].line;
+fn push(bodies: &mut Bodies, slot: BodyIx, v: Vec2, w: f64) {
+    let line = bodies.records[slot].line;
     bodies.push(line, &Quad::new(v, w));
     bodies.note_change(line);
 }

@@ -3,6 +3,7 @@
 use carom_math::{Vec2, vec2};
 
 use super::Random;
+use crate::BodyIx;
 use crate::narrow::naive::{Going, collide};
 use crate::narrow::{Manifold, collide_any};
 use crate::pieces::Piece;
@@ -25,7 +26,7 @@ fn outlines_that_touch_agree_with_hulls() {
         let inputs = [random.piece(), random.piece()];
         let [a, b] = inputs
             .each_ref()
-            .map(|input| Piece::of(input, 0, 0).next().unwrap());
+            .map(|input| Piece::of(input, BodyIx::default(), 0).next().unwrap());
         let (pose_a, pose_b) = (random.pose(0.6), random.pose(0.6));
         let posed = [(&a, pose_a), (&b, pose_b)].map(|(piece, pose)| {
             let mut pieces = crate::pieces::Pieces::default();
@@ -81,8 +82,10 @@ fn no_cut_is_touched() {
     let (mut random, mut touching) = (Random::new(2), 0);
     for _ in 0..20_000 {
         let letter = super::wide::letter();
-        let parts: Vec<_> = Piece::of(&letter, 0, 0).collect();
-        let other = Piece::of(&random.piece(), 0, 0).next().unwrap();
+        let parts: Vec<_> = Piece::of(&letter, BodyIx::default(), 0).collect();
+        let other = Piece::of(&random.piece(), BodyIx::default(), 0)
+            .next()
+            .unwrap();
         let (pose_a, pose_b) = (random.pose(0.6), random.pose(0.6));
         let posed = |piece: &Piece, pose| {
             let mut pieces = crate::pieces::Pieces::default();

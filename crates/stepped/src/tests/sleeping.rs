@@ -74,7 +74,7 @@ fn the_pieces_of_sleepers_are_turned_as_their_bodies() {
     tilted.pose.rotation = Rot::from_angle(0.004);
     let id = engine.insert(tilted, &[unit_box()]).unwrap();
     let corner = |engine: &Engine| {
-        let piece = engine.bodies.records[id.slot as usize].first_piece;
+        let piece = engine.bodies.records[id.slot].first_piece;
         engine.pieces.outline(piece).corner(0)
     };
     for _ in 0..120 {
@@ -110,7 +110,7 @@ fn the_gap_ahead_is_that_of_a_point_and_its_own_way() {
         let line = engine.bodies.line_of(high.slot);
         let (way, turn) = (1e-3 * random.signed(), 4e-3 * random.signed());
         engine.bodies.lines[line].set_displacement(vec2(0.0, way), turn);
-        let pair = [low, high].map(|id| engine.bodies.records[id.slot as usize].first_piece);
+        let pair = [low, high].map(|id| engine.bodies.records[id.slot].first_piece);
         let scene = engine.scene();
         let found = scene.contact(pair, 1.0).expect("near");
         let right = gap + way - 0.5 * turn.abs();

@@ -47,7 +47,7 @@ fn eight<'a>(scene: &Scene<'a>, pairs: &[[u32; 2]]) -> Eight<'a> {
     for (lane, pair) in pairs.iter().enumerate() {
         assert!(eight.set_pieces(scene.pieces, lane, *pair));
         let body = |piece: u32| scene.pieces.list[piece as usize].body;
-        let line = |piece: u32| scene.bodies.records[body(piece) as usize].line;
+        let line = |piece: u32| scene.bodies.records[body(piece)].line;
         (eight.lines[0][lane], eight.lines[1][lane]) = (line(pair[0]), line(pair[1]));
         eight.least[lane] = scene.seen(pair.map(line));
     }

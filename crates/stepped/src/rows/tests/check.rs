@@ -34,12 +34,12 @@ impl Graph {
                     let pushes = block.push(lane, &bodies.lines);
                     for side in [0, 1] {
                         let slot = contact.bodies[side];
-                        assert_eq!(bodies.records[slot as usize].line, lines[side]);
+                        assert_eq!(bodies.records[slot].line, lines[side]);
                         sums[lines[side] as usize].add(&pushes[side]);
                         if bodies.is_dynamic(slot) {
-                            assert!(!seen.contains(&slot), "body {slot} twice in a block");
+                            assert!(!seen.contains(&slot), "body {slot:?} twice in a block");
                             seen.push(slot);
-                            masks[slot as usize] |= contact.mask();
+                            masks[slot.at()] |= contact.mask();
                         }
                     }
                 }
