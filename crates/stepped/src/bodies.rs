@@ -1,14 +1,12 @@
 //! Bodies: a record each, and a line for each that is awake.
 
-use core::ops::Range;
-
 use carom_math::{Pose, Vec2};
 
 pub(crate) use crate::input::{BodyId, BodyInput, BodyKind};
 pub(crate) use crate::record::{BEND, FAST, Limit, Record, Sleeper};
 use crate::record::{UNDAMPED, drag};
 use crate::rows::{Line, Quad, velocity_before};
-use crate::{BodyIx, EngineError, Settings};
+use crate::{BodyIx, EngineError, PieceIx, Settings};
 
 /// A place in a list, or the length of one, as it is stored: what is counted so takes dozens of bytes each.
 #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32")]
@@ -89,7 +87,10 @@ impl Bodies {
     }
 
     /// The pieces of the body of a line.
-    pub(crate) fn pieces_of_line(&self, line: usize) -> Range<u32> {
+    pub(crate) fn pieces_of_line(
+        &self,
+        line: usize,
+    ) -> impl Iterator<Item = PieceIx> + Clone + use<> {
         let record = &self.records[self.slot_of[line]];
         record.pieces()
     }
@@ -236,11 +237,6 @@ impl Bodies {
         self.turned[at] = sleeper.turned;
         self.limits[at] = sleeper.limit;
         self.moved[at] = sleeper.moved;
-    }
-
-    /// All records, with the slots of their bodies.
-    pub(crate) fn each(&self) -> impl Iterator<Item = (BodyIx, &Record)> {
-        (0..).map(BodyIx::new).zip(&self.records)
     }
 
     /// The line of a body; that of fixed ones if it sleeps.

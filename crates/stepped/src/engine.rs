@@ -228,18 +228,22 @@ impl Engine {
     /// Calls `found` with the tag and the box of each dynamic body, or of a piece of it, that the next search is about, after
     /// [`Self::pose_boxes`].
     pub fn new_boxes(&self, mut found: impl FnMut(u64, Aabb)) {
-        let mut tell = |slot: BodyIx, pieces: core::ops::Range<u32>| {
+        let mut tell = |slot: BodyIx, bounds: Aabb| {
             let record = &self.bodies.records[slot];
             if record.kind == BodyKind::Dynamic {
-                let boxes = pieces.map(|piece| self.pieces.boxes[piece as usize]);
-                found(record.tag, boxes.fold(Aabb::EMPTY, Aabb::union));
+                found(record.tag, bounds);
             }
         };
+        let boxes = &self.pieces.boxes;
         for line in (2..self.bodies.lines.len()).filter(|line| self.bodies.moved[*line]) {
-            tell(self.bodies.slot_of[line], self.bodies.pieces_of_line(line));
+            let its = self.bodies.pieces_of_line(line).map(|piece| boxes[piece]);
+            tell(
+                self.bodies.slot_of[line],
+                its.fold(Aabb::EMPTY, Aabb::union),
+            );
         }
         for &piece in &self.broad.woken {
-            tell(self.pieces.list[piece as usize].body, piece..piece + 1);
+            tell(self.pieces.list[piece].body, boxes[piece]);
         }
     }
 
@@ -297,7 +301,7 @@ impl Engine {
         let (pose, tick) = (bodies.base[line], self.settings.tick);
         for number in bodies.pieces_of_line(line) {
             let tight = pieces.pose(number, pose);
-            let outline = &pieces.outlines[number as usize];
+            let outline = &pieces.outlines[number];
             let (reach, extent) = (outline.reach(), outline.extent());
             // Half of a pair's margin, and what the body may go unseen.
             let slack = 0.5 * self.settings.margin * extent + 2.0 * limit.tolerance;
@@ -307,8 +311,8 @@ impl Engine {
             let goes = body.v() * tick;
             let falls = bodies.pull[line].v() * (tick * tick);
             let swept = stretched(stretched(box_, goes), falls);
-            pieces.boxes[number as usize] = swept.grown(slack);
-            pieces.discs[number as usize] = Disc {
+            pieces.boxes[number] = swept.grown(slack);
+            pieces.discs[number] = Disc {
                 centre: pose.position,
                 velocity: body.v(),
                 radius: reach + slack + falls.length(),

@@ -6,16 +6,16 @@
 //! reaches through the plane: where it stands, a row with a side of it that does not reach through is one with the side that
 //! does, as at the tip of a ramp that a body slides up to.
 
-use core::ops::Range;
 use std::collections::BTreeMap;
 
 use carom_math::{Vec2, perp};
 
-use crate::bodies::{Bodies, BodyKind};
+use crate::bodies::Bodies;
 use crate::narrow::Manifold;
 use crate::outline::Outline;
 use crate::pieces::Pieces;
 use crate::rows::Graph;
+use crate::{BodyIx, PieceIx};
 
 /// Pieces are flush within this part of the smaller extent. Smaller than rounding far out hides nothing; larger hides steps.
 const FLUSH: f64 = 1e-4;
@@ -64,7 +64,7 @@ impl Suspects {
         &mut self,
         (bodies, pieces): (&Bodies, &Pieces),
         [a, b]: [u32; 2],
-        pair: [u32; 2],
+        pair: [PieceIx; 2],
         contact: u32,
     ) {
         for (body, other, piece) in [(a, b, pair[1]), (b, a, pair[0])] {
@@ -72,7 +72,7 @@ impl Suspects {
                 let driven = bodies.lines[other as usize].inverse_mass() == 0.0;
                 // The seams of what did not move are those of before.
                 let stays = !bodies.moved[other as usize];
-                let is_flush = stays || driven || pieces.owners[piece as usize].several;
+                let is_flush = stays || driven || pieces.owners[piece].several;
                 self.short.push(Short {
                     body,
                     contact,
@@ -107,7 +107,7 @@ struct Row {
     /// What is flush with the piece, and how much farther apart they are at the second point, in m.
     flush: f64,
     slope: f64,
-    piece: u32,
+    piece: PieceIx,
     contact: u32,
     /// Whether the piece stands, or is driven, and the body's own has sides: a disc meets no tip before it meets the sides.
     is_tip: bool,
@@ -120,16 +120,14 @@ pub(crate) fn filter(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
     let suspects = graph.suspects.contacts();
     for asked in suspects.chunk_by(|a, b| a.0 == b.0) {
         let slot = bodies.slot_of[asked[0].0 as usize];
-        let record = &bodies.records[slot];
-        if record.kind != BodyKind::Dynamic {
+        if !bodies.is_dynamic(slot) {
             continue;
         }
-        let its = record.pieces();
         let ids = graph.of_body(bodies, slot).map(|(id, _)| id);
         rows.clear();
         rows.extend(
             ids.take(MOST + 1)
-                .map(|id| Row::of(graph, (bodies, pieces), id, &its)),
+                .map(|id| Row::of(graph, (bodies, pieces), id, slot)),
         );
         if rows.len() > MOST {
             continue;
@@ -222,7 +220,7 @@ fn exposed_over(rows: &[Row], pieces: &Pieces, row: &Row, other: &Row) -> Expose
     let goes_on = |point: &Vec2| {
         rows.iter().any(|third| {
             let q = third.piece;
-            let (point, bounds) = (*point + lean, pieces.boxes[q as usize]);
+            let (point, bounds) = (*point + lean, pieces.boxes[q]);
             q != row.piece
                 && bounds.grown(flush).contains_point(point)
                 && has_sides(pieces.outline(q))
@@ -242,16 +240,11 @@ const fn has_sides(piece: &Outline) -> bool {
 }
 
 impl Row {
-    /// A contact of the body that has the pieces `its`.
-    fn of(
-        graph: &Graph,
-        (bodies, pieces): (&Bodies, &Pieces),
-        contact: u32,
-        its: &Range<u32>,
-    ) -> Self {
+    /// A contact of the body of a slot.
+    fn of(graph: &Graph, (bodies, pieces): (&Bodies, &Pieces), contact: u32, slot: BodyIx) -> Self {
         let pair = graph.contacts[contact as usize].pieces;
         let (block, _, lane) = graph.lane(contact);
-        let (side, sign) = if its.contains(&pair[0]) {
+        let (side, sign) = if pieces.owners[pair[0]].body == slot {
             (1, -1.0)
         } else {
             (0, 1.0)

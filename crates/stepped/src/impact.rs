@@ -11,7 +11,7 @@ use carom_math::{Vec2, perp};
 use crate::bodies::{Bodies, number};
 use crate::pieces::Pieces;
 use crate::rows::{Arrival, Block, Colour, Graph, Law, REST, lanes};
-use crate::{BodyId, BodyIx, Engine};
+use crate::{BodyId, BodyIx, Engine, PieceIx};
 
 /// A run goes on for so many sub-steps at most: what is pressed on for longer lies there.
 const LONGEST: u32 = 16;
@@ -43,7 +43,7 @@ struct Run {
     /// Number of the contact, and its bodies and pieces: numbers are given anew.
     contact: u32,
     slots: [BodyIx; 2],
-    pieces: [u32; 2],
+    pieces: [PieceIx; 2],
     speed: f64,
     /// From the beginning of its first sub-step on, in s.
     met: f64,

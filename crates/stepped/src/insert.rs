@@ -5,7 +5,7 @@ use carom_math::Pose;
 use crate::bodies::{Bodies, number};
 use crate::groups::reached;
 use crate::pieces::{Disc, Piece};
-use crate::{BodyId, BodyInput, BodyIx, BodyKind, Engine, EngineError, PieceInput};
+use crate::{BodyId, BodyInput, BodyIx, BodyKind, Engine, EngineError, PieceInput, PieceIx};
 
 impl Engine {
     /// Adds a body made of these pieces.
@@ -37,7 +37,7 @@ impl Engine {
         let record = &mut self.bodies.records[id.slot];
         (record.first_piece, record.count, record.reach) = (first, count, reach);
         if body.kind == BodyKind::Fixed {
-            for number in first..first + count {
+            for number in first.run(count) {
                 self.stand(number, body.pose);
             }
             self.wake_overlapped(id.slot);
@@ -46,7 +46,7 @@ impl Engine {
             limit.reach = reach;
             limit.tolerance = self.settings.tolerance * extent;
             limit.extent = extent;
-            for number in first..first + count {
+            for number in first.run(count) {
                 self.broad.enter(number);
             }
         }
@@ -54,17 +54,17 @@ impl Engine {
     }
 
     /// A piece stands where the pose puts it.
-    pub(crate) fn stand(&mut self, number: u32, pose: Pose) {
+    pub(crate) fn stand(&mut self, number: PieceIx, pose: Pose) {
         let tight = self.pieces.pose(number, pose);
-        let piece = &self.pieces.list[number as usize];
+        let piece = &self.pieces.list[number];
         let slack = 0.5 * self.settings.margin * piece.extent;
         let bounds = if tight.is_finite() {
             tight.grown(slack)
         } else {
             tight
         };
-        self.pieces.boxes[number as usize] = bounds;
-        self.pieces.discs[number as usize] = Disc::endless(slack);
+        self.pieces.boxes[number] = bounds;
+        self.pieces.discs[number] = Disc::endless(slack);
         self.broad.stand(number, bounds);
     }
 

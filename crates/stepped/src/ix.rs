@@ -3,7 +3,11 @@
 use core::fmt;
 use core::ops::{Index, IndexMut};
 
+use carom_geometry::Aabb;
+
 use crate::bodies::number;
+use crate::outline::Outline;
+use crate::pieces::{Disc, Owner, Piece};
 use crate::record::Record;
 
 /// Types of numbers, and what the lists hold that are read by them.
@@ -11,7 +15,7 @@ macro_rules! numbers {
     ($($(#[$doc:meta])* $name:ident: $($of:ty),*;)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub(crate) struct $name(u32);
+        pub(crate) struct $name(pub(crate) u32);
 
         impl $name {
             pub(crate) const NONE: Self = Self(u32::MAX);
@@ -44,4 +48,13 @@ macro_rules! numbers {
 numbers! {
     /// A body: its slot, which is taken again once it is removed.
     BodyIx: Record;
+    /// A convex piece of a body.
+    PieceIx: Piece, Owner, Outline, Aabb, Disc, u8;
+}
+
+impl PieceIx {
+    /// So many from this one on.
+    pub(crate) fn run(self, count: u32) -> impl Iterator<Item = Self> + Clone {
+        (self.0..self.0 + count).map(Self)
+    }
 }

@@ -53,7 +53,7 @@ impl Engine {
                         continue;
                     }
                     let [a, b] = cold.pieces[lane].map(|number| {
-                        let piece = &pieces.list[number as usize];
+                        let piece = &pieces.list[number];
                         (piece, bodies.pose_of(piece.body))
                     });
                     if let Some(found) = collide_any(a, b, 0.0) {

@@ -9,7 +9,7 @@ use carom_math::{Pose, Vec2};
 use crate::bodies::number;
 use crate::error::{check, finite, not_negative};
 use crate::outline::{CORNERS, Outline, outline_of};
-use crate::{BodyIx, EngineError, PairRules, Surface};
+use crate::{BodyIx, EngineError, PairRules, PieceIx, Surface};
 
 /// What a surface is like.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,7 +174,7 @@ pub(crate) struct Pieces {
     /// Circles around movers, and their velocities.
     pub(crate) discs: Vec<Disc>,
     /// First and count of numbers in use no more.
-    free: Vec<(u32, u32)>,
+    free: Vec<(PieceIx, u32)>,
     /// Of contacts, as a part of the smaller piece's extent.
     margin: f64,
 }
@@ -190,27 +190,27 @@ impl Pieces {
     /// Whether a piece comes nearer to one that stands than its own margin. Boxes have half of their own each, and that of a long floor
     /// is tens of metres.
     #[inline]
-    pub(crate) fn is_near(&self, piece: u32, stands: u32) -> bool {
-        let [own, theirs] = [piece, stands].map(|piece| self.outlines[piece as usize].extent());
+    pub(crate) fn is_near(&self, piece: PieceIx, stands: PieceIx) -> bool {
+        let [own, theirs] = [piece, stands].map(|piece| self.outlines[piece].extent());
         let spare = 0.5 * self.margin * (theirs - own);
-        let bounds = self.boxes[piece as usize].grown(-spare);
-        bounds.overlaps(self.boxes[stands as usize])
+        let bounds = self.boxes[piece].grown(-spare);
+        bounds.overlaps(self.boxes[stands])
     }
 
     /// Whether a piece that moves stays beyond a half-plane that stands, by more than the margin, for `time` seconds.
-    pub(crate) fn is_beyond_plane(&self, piece: u32, plane: u32, time: f64) -> bool {
-        let [disc, standing] = [piece, plane].map(|piece| &self.discs[piece as usize]);
-        let half_margin = 0.5 * self.margin * self.outlines[piece as usize].extent();
+    pub(crate) fn is_beyond_plane(&self, piece: PieceIx, plane: PieceIx, time: f64) -> bool {
+        let [disc, standing] = [piece, plane].map(|piece| &self.discs[piece]);
+        let half_margin = 0.5 * self.margin * self.outlines[piece].extent();
         let far = disc.radius + half_margin + disc.nears(standing, time);
         self.outline(plane).is_beyond_plane(disc.centre, far)
     }
 
     /// Numbers the pieces of a body; gives the first number.
-    pub(crate) fn insert(&mut self, pieces: Vec<Piece>) -> u32 {
-        let (end, count) = (number(self.list.len()), number(pieces.len()));
+    pub(crate) fn insert(&mut self, pieces: Vec<Piece>) -> PieceIx {
+        let (end, count) = (PieceIx::new(self.list.len()), number(pieces.len()));
         let again = self.free.iter().rposition(|free| free.1 == count);
         let first = again.map_or(end, |k| self.free.swap_remove(k).0);
-        for (number, piece) in (first as usize..).zip(pieces) {
+        for (number, piece) in (first.at()..).zip(pieces) {
             let outline = outline(&piece);
             let owner = Owner {
                 body: piece.body,
@@ -234,26 +234,26 @@ impl Pieces {
     }
 
     /// How two pieces meet, if they do.
-    pub(crate) fn surface(&self, pair: [u32; 2], rules: &dyn PairRules) -> Option<Surface> {
-        let [a, b] = pair.map(|piece| &self.list[piece as usize]);
+    pub(crate) fn surface(&self, pair: [PieceIx; 2], rules: &dyn PairRules) -> Option<Surface> {
+        let [a, b] = pair.map(|piece| &self.list[piece]);
         rules.surface([a.tag, b.tag], [a.material, b.material])
     }
 
     /// Slots of the bodies of two pieces.
-    pub(crate) fn bodies(&self, pair: [u32; 2]) -> [BodyIx; 2] {
-        pair.map(|piece| self.owners[piece as usize].body)
+    pub(crate) fn bodies(&self, pair: [PieceIx; 2]) -> [BodyIx; 2] {
+        pair.map(|piece| self.owners[piece].body)
     }
 
     /// Whether they belong to two bodies.
-    pub(crate) fn are_of_two(&self, a: u32, b: u32) -> bool {
-        self.owners[a as usize].body != self.owners[b as usize].body
+    pub(crate) fn are_of_two(&self, a: PieceIx, b: PieceIx) -> bool {
+        self.owners[a].body != self.owners[b].body
     }
 
     /// Whether one of two pieces stays beyond a side of the other one for `time` seconds, as beside a plank that is askew, the circle of
     /// which is wide. Where no circle is more than twice as wide as the other, circles alone tell.
     #[inline]
-    pub(crate) fn are_beside(&self, a: u32, b: u32, time: f64) -> bool {
-        let radius = |piece: u32| self.discs[piece as usize].radius;
+    pub(crate) fn are_beside(&self, a: PieceIx, b: PieceIx, time: f64) -> bool {
+        let radius = |piece: PieceIx| self.discs[piece].radius;
         let (large, small) = if radius(a) > radius(b) {
             (a, b)
         } else {
@@ -262,39 +262,38 @@ impl Pieces {
         radius(large) > 2.0 * radius(small) && self.is_beside(large, small, time)
     }
 
-    fn is_beside(&self, large: u32, small: u32, time: f64) -> bool {
-        let [disc, small] = [large, small].map(|piece| &self.discs[piece as usize]);
+    fn is_beside(&self, large: PieceIx, small: PieceIx, time: f64) -> bool {
+        let [disc, small] = [large, small].map(|piece| &self.discs[piece]);
         let far = small.radius + disc.beyond + disc.nears(small, time);
         self.outline(large).is_beyond_side(small.centre, far)
     }
 
     /// Tags of two pieces.
-    pub(crate) fn tags(&self, pair: [u32; 2]) -> [u64; 2] {
-        pair.map(|piece| self.list[piece as usize].tag)
+    pub(crate) fn tags(&self, pair: [PieceIx; 2]) -> [u64; 2] {
+        pair.map(|piece| self.list[piece].tag)
     }
 
     /// Their numbers are free again, and in no box.
-    pub(crate) fn remove(&mut self, first: u32, count: u32) {
-        self.boxes[first as usize..(first + count) as usize].fill(Aabb::EMPTY);
+    pub(crate) fn remove(&mut self, first: PieceIx, count: u32) {
+        self.boxes[first.at()..][..count as usize].fill(Aabb::EMPTY);
         self.free.push((first, count));
     }
 
     /// Takes over the pose of a body, and gives the box that the piece is in.
-    pub(crate) fn pose(&mut self, number: u32, pose: Pose) -> Aabb {
-        let k = number as usize;
-        let outline = &mut self.outlines[k];
-        outline.pose(&self.of_body[k], pose);
+    pub(crate) fn pose(&mut self, number: PieceIx, pose: Pose) -> Aabb {
+        let outline = &mut self.outlines[number];
+        outline.pose(&self.of_body[number], pose);
         if outline.count() > 0.0 {
             outline.aabb()
         } else {
-            let piece = &self.list[k];
+            let piece = &self.list[number];
             piece.hull().aabb(pose).grown(piece.rounding)
         }
     }
 
     /// The outline of a piece in the base pose of its body.
-    pub(crate) fn outline(&self, piece: u32) -> &Outline {
-        &self.outlines[piece as usize]
+    pub(crate) fn outline(&self, piece: PieceIx) -> &Outline {
+        &self.outlines[piece]
     }
 }
 

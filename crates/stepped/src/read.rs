@@ -4,7 +4,7 @@ use carom_geometry::Aabb;
 use carom_math::{Pose, Vec2};
 
 use crate::bodies::Bodies;
-use crate::{BodyId, BodyKind, Engine, EngineError, Settings};
+use crate::{BodyId, BodyIx, BodyKind, Engine, EngineError, PieceIx, Settings};
 
 /// A body as the last sub-step left it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -193,7 +193,7 @@ impl Engine {
 
     /// Calls `found` with the tag of each piece that may be in `bounds` until the next sub-step, perhaps more than once.
     pub fn query(&self, bounds: Aabb, mut found: impl FnMut(u64)) {
-        let tag = |piece: u32| self.pieces.list[piece as usize].tag;
+        let tag = |piece: PieceIx| self.pieces.list[piece].tag;
         // Boxes are those of the last tick's begin: a blow in the last sub-step may lead out of them, and push-outs since then.
         let since = if self.is_at_tick() {
             self.settings.tick
@@ -215,7 +215,7 @@ impl Engine {
 
     /// [`Self::query`] of those alone that are awake and not fixed.
     pub fn query_awake(&self, bounds: Aabb, mut found: impl FnMut(u64)) {
-        let tag = |piece: u32| self.pieces.list[piece as usize].tag;
+        let tag = |piece: PieceIx| self.pieces.list[piece].tag;
         self.broad
             .movers_in(&self.pieces, bounds, |piece| found(tag(piece)));
     }
@@ -224,14 +224,14 @@ impl Engine {
     /// it goes otherwise than was foreseen. Only after [`Self::prepare_queries`].
     pub fn movers(&self, mut found: impl FnMut(u64, Aabb)) {
         let movers = self.broad.movers(&self.bodies, &self.pieces);
-        movers.for_each(|(piece, bounds)| found(self.pieces.list[piece as usize].tag, bounds));
+        movers.for_each(|(piece, bounds)| found(self.pieces.list[piece].tag, bounds));
     }
 
     /// Calls `found` with the tag and the box of each awake piece that came, or goes otherwise than was foreseen, since contacts were
     /// last found at the begin of a tick, or since [`Self::forget_news`]. Only after [`Self::prepare_queries`].
     pub fn news(&self, mut found: impl FnMut(u64, Aabb)) {
         for (piece, bounds) in self.broad.news(&self.pieces) {
-            found(self.pieces.list[piece as usize].tag, bounds);
+            found(self.pieces.list[piece].tag, bounds);
         }
     }
 
@@ -242,7 +242,7 @@ impl Engine {
 
     /// Names of all bodies, by slot.
     pub fn bodies(&self) -> impl Iterator<Item = BodyId> + '_ {
-        let live = self.bodies.each();
+        let live = (0..).map(BodyIx).zip(&self.bodies.records);
         live.filter(|(_, record)| record.live)
             .map(|(slot, _)| self.bodies.id(slot))
     }
@@ -300,7 +300,7 @@ impl Engine {
     #[must_use]
     pub fn energy(&self) -> (f64, f64) {
         let (mut kinetic, mut potential) = (0.0, 0.0);
-        for (slot, record) in self.bodies.each() {
+        for (slot, record) in (0..).map(BodyIx).zip(&self.bodies.records) {
             if record.live && record.kind == BodyKind::Dynamic {
                 let (v, w) = self.bodies.velocity_of(slot);
                 let turns = if w == 0.0 {
@@ -322,9 +322,7 @@ impl Engine {
         let [j1, j2, friction] = block.impulses(lane);
         Contact {
             bodies: contact.bodies.map(|slot| self.bodies.id(slot)),
-            pieces: contact
-                .pieces
-                .map(|piece| self.pieces.list[piece as usize].ordinal),
+            pieces: contact.pieces.map(|piece| self.pieces.list[piece].ordinal),
             tags: self.pieces.tags(contact.pieces),
             touching: self.graph.is_touching(id),
             places: self.graph.places(&self.bodies, id),

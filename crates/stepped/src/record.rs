@@ -1,13 +1,11 @@
 //! What is kept of a body beside its line.
 
-use core::ops::Range;
-
 use carom_math::{Pose, trig};
 
-use crate::BodyIx;
 use crate::bodies::Bodies;
 use crate::input::BodyKind;
 use crate::rows::{Line, Quad};
+use crate::{BodyIx, PieceIx};
 
 /// What is kept of a body, awake or not.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +18,7 @@ pub(crate) struct Record {
     /// Its line: [`Bodies::GROUND`] if fixed.
     pub(crate) line: u32,
     /// Number of its first piece, and how many it has.
-    pub(crate) first_piece: u32,
+    pub(crate) first_piece: PieceIx,
     pub(crate) count: u32,
     /// Counts insertions: the order of bodies that recycled slots cannot change.
     pub(crate) birth: u64,
@@ -132,8 +130,8 @@ pub(crate) const UNDAMPED: [Quad; 2] = [Quad([1.0; 4]); 2];
 
 impl Record {
     /// Numbers of its pieces.
-    pub(crate) const fn pieces(&self) -> Range<u32> {
-        self.first_piece..self.first_piece + self.count
+    pub(crate) fn pieces(&self) -> impl Iterator<Item = PieceIx> + Clone + use<> {
+        self.first_piece.run(self.count)
     }
 
     pub(crate) const NONE: Self = Self {
@@ -142,7 +140,7 @@ impl Record {
         live: false,
         sleep_allowed: true,
         line: Bodies::NONE,
-        first_piece: 0,
+        first_piece: PieceIx(0),
         count: 0,
         birth: 0,
         placed: 0,

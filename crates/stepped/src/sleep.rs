@@ -178,7 +178,7 @@ impl Engine {
             let record = &self.bodies.records[slot];
             for piece in record.pieces() {
                 self.pieces.pose(piece, record.pose);
-                self.broad.stand(piece, self.pieces.boxes[piece as usize]);
+                self.broad.stand(piece, self.pieces.boxes[piece]);
             }
         }
         self.islands.unmet += usize::from(sleepers.iter().any(Sleeper::is_unmet));
@@ -230,9 +230,9 @@ impl Engine {
         let record = &self.bodies.records[slot];
         let mut found = Vec::new();
         for piece in record.pieces() {
-            let bounds = self.pieces.boxes[piece as usize];
+            let bounds = self.pieces.boxes[piece];
             self.broad.standing_in(bounds, |other| {
-                let theirs = self.pieces.list[other as usize].body;
+                let theirs = self.pieces.list[other].body;
                 let island = self.bodies.records[theirs].island;
                 if island != Bodies::NONE
                     && theirs != slot

@@ -14,7 +14,7 @@ use crate::rows::{
     lanes, renew,
 };
 use crate::whole::PutPairs;
-use crate::{BodyIx, PairRules, Settings};
+use crate::{BodyIx, PairRules, PieceIx, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
@@ -117,7 +117,7 @@ pub(crate) fn update(
             if let Some(side) = face(found, lane, pieces, pair, is_hard)
                 && !cold.is_deep(lane)
             {
-                let [a, b] = pair.map(|piece| pieces.outlines[piece as usize].extent());
+                let [a, b] = pair.map(|piece| pieces.outlines[piece].extent());
                 rotating.add(
                     (block, lane),
                     (cold.contact[lane], pair),
@@ -139,13 +139,13 @@ pub(crate) fn update(
 /// What overlaps, or was pushed in the last sub-step, stays on the side on which it came: a thin body that is pressed into a wall
 /// without thickness by more than half of its own would go through. A corner beside a corner is on no side: beyond the end of a wall
 /// it may be below the one that its body then lies on.
-fn keep_side(scene: &Scene<'_>, block: &Block, pair: [u32; 2], lane: usize, found: &mut Found) {
+fn keep_side(scene: &Scene<'_>, block: &Block, pair: [PieceIx; 2], lane: usize, found: &mut Found) {
     let [a, b] = [block.a[lane], block.b[lane]].map(|line| &scene.bodies.lines[line as usize]);
     let normal = found.rows.normal(lane);
     let overlaps = found.gap(lane, b.d() - a.d()) < 0.0;
     let pushes = block.j1[lane] + block.j2[lane] > 0.0;
     let came = block.normal(lane);
-    let is_sharp = |piece: u32| scene.pieces.outlines[piece as usize].radius() == 0.0;
+    let is_sharp = |piece: PieceIx| scene.pieces.outlines[piece].radius() == 0.0;
     let of_corners = || block.s2[lane] == OPEN && pair.into_iter().all(is_sharp);
     if (overlaps || pushes)
         && came.dot(normal) < TURNED_OVER
@@ -180,21 +180,21 @@ fn face(
     found: &Found,
     lane: usize,
     pieces: &Pieces,
-    pair: [u32; 2],
+    pair: [PieceIx; 2],
     is_hard: bool,
 ) -> Option<Side> {
     let has = |bits: u8| bits >> lane & 1 == 1;
     let of_b = has(found.of_b);
     let corner = pair[usize::from(!of_b)];
-    let radius = pieces.outlines[corner as usize].radius();
+    let radius = pieces.outlines[corner].radius();
     // Corners in short soft rows may be ghosts, and go; a disc on a face has no other rows.
     let stays = is_hard || !has(found.short) || radius > 0.0;
     ((of_b || has(found.of_a)) && stays).then_some(Side { of_b, radius })
 }
 
 /// The least gap of two pieces that the sweeps see, in m.
-fn deepest(law: &Law, pieces: &Pieces, pair: [u32; 2]) -> f64 {
-    let [a, b] = pair.map(|piece| pieces.outlines[piece as usize].extent());
+fn deepest(law: &Law, pieces: &Pieces, pair: [PieceIx; 2]) -> f64 {
+    let [a, b] = pair.map(|piece| pieces.outlines[piece].extent());
     law.deepest(a.min(b))
 }
 
@@ -223,13 +223,13 @@ fn manifolds(
 /// Islands asleep that some candidate reaches before the next tick: its gap may come below 0 until then.
 pub(crate) fn met_asleep(
     scene: &Scene<'_>,
-    candidates: &[[u32; 2]],
+    candidates: &[[PieceIx; 2]],
     rules: &dyn PairRules,
 ) -> Vec<u32> {
     let (bodies, pieces) = (scene.bodies, scene.pieces);
     let mut islands = Vec::new();
     for &pair in candidates {
-        let slots = pair.map(|piece| pieces.list[piece as usize].body);
+        let slots = pair.map(|piece| pieces.list[piece].body);
         let [a, b] = slots.map(|slot| bodies.records[slot].island);
         let island = a.min(b);
         if island == Bodies::NONE || islands.contains(&island) {
@@ -264,7 +264,7 @@ pub(crate) fn met_asleep(
 }
 
 /// How near two pieces are where their bodies are based, in margins of theirs, at most one; `None` if they are farther apart.
-pub(crate) fn nearness(scene: &Scene<'_>, pair: [u32; 2]) -> Option<f64> {
+pub(crate) fn nearness(scene: &Scene<'_>, pair: [PieceIx; 2]) -> Option<f64> {
     let pair = in_order(scene.bodies, scene.pieces, pair);
     let gap = scene.contact(pair, 1.0)?.gap();
     Some(gap / scene.margin(pair))
@@ -272,8 +272,8 @@ pub(crate) fn nearness(scene: &Scene<'_>, pair: [u32; 2]) -> Option<f64> {
 
 /// Two pieces in the order in which their bodies were inserted: a manifold depends on which one is A, and neither the numbers
 /// of pieces nor the search that found the pair may decide that.
-fn in_order(bodies: &Bodies, pieces: &Pieces, [a, b]: [u32; 2]) -> [u32; 2] {
-    let birth = |piece: u32| place(bodies, pieces, piece).0;
+fn in_order(bodies: &Bodies, pieces: &Pieces, [a, b]: [PieceIx; 2]) -> [PieceIx; 2] {
+    let birth = |piece: PieceIx| place(bodies, pieces, piece).0;
     if birth(a) < birth(b) { [a, b] } else { [b, a] }
 }
 
@@ -284,7 +284,7 @@ pub(crate) fn create(
     (graph, rotating): (&mut Graph, &mut RotatingRows),
     bodies: &mut Bodies,
     (pieces, settings): (&Pieces, &Settings),
-    (known, candidates): (&mut Pairs, &[[u32; 2]]),
+    (known, candidates): (&mut Pairs, &[[PieceIx; 2]]),
     (deep, put): (&Deep, &mut PutPairs),
     rules: &dyn PairRules,
 ) -> f64 {
@@ -340,7 +340,7 @@ pub(crate) fn create(
         let Some(surface) = pieces.surface(pair, rules) else {
             continue;
         };
-        let [a, b] = pair.map(|piece| &pieces.list[piece as usize]);
+        let [a, b] = pair.map(|piece| &pieces.list[piece]);
         let ends = [a.body, b.body];
         let deepest = deepest(law, pieces, pair);
         let by = if is_whole || put.contains(bodies, ends) {
@@ -415,7 +415,7 @@ pub(crate) struct Fresh {
 /// Two pieces, beginning with what was inserted first, and the lines of their bodies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
-    pub(crate) pieces: [u32; 2],
+    pub(crate) pieces: [PieceIx; 2],
     lines: [u32; 2],
 }
 
@@ -433,7 +433,7 @@ impl Pair {
     }
 
     /// Two pieces of bodies that are awake or fixed, and that contacts move at least one of.
-    fn new(bodies: &Bodies, pieces: &Pieces, pair: [u32; 2]) -> Option<Self> {
+    fn new(bodies: &Bodies, pieces: &Pieces, pair: [PieceIx; 2]) -> Option<Self> {
         let pair = in_order(bodies, pieces, pair);
         let records = pieces.bodies(pair).map(|slot| &bodies.records[slot]);
         let lines = records.map(|record| record.line);
@@ -449,8 +449,8 @@ impl Pair {
 }
 
 /// Place of a piece in an order that memory does not change: birth of its body, and index of the piece.
-pub(crate) fn place(bodies: &Bodies, pieces: &Pieces, piece: u32) -> (u64, u32) {
-    let owner = pieces.owners[piece as usize];
+pub(crate) fn place(bodies: &Bodies, pieces: &Pieces, piece: PieceIx) -> (u64, u32) {
+    let owner = pieces.owners[piece];
     (bodies.records[owner.body].birth, owner.ordinal)
 }
 

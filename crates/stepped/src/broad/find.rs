@@ -2,6 +2,7 @@
 
 use super::Broad;
 use super::lists::{AMONG, ASKED, BESIDE, KNOWN, LATE, LISTED, NEW, STANDS, is_mover};
+use crate::PieceIx;
 use crate::bodies::Bodies;
 use crate::pieces::Pieces;
 
@@ -28,7 +29,7 @@ impl Broad {
             let lists = &self.lists;
             let movers = self.asked.iter().copied();
             self.news
-                .extend(movers.filter(|piece| is_mover(lists.states[*piece as usize])));
+                .extend(movers.filter(|piece| is_mover(lists.states[*piece])));
         }
         if self.is_stale() {
             self.sort(bodies, pieces, tick);
@@ -37,7 +38,7 @@ impl Broad {
         }
         self.read(pieces, tick);
         for piece in self.asked.drain(..) {
-            self.lists.states[piece as usize] &= !(ASKED);
+            self.lists.states[piece] &= !(ASKED);
         }
         self.arrived.clear();
         self.woken.clear();
@@ -46,12 +47,12 @@ impl Broad {
     /// Notes which pieces a search is about, and which of them left their fat boxes.
     fn ask(&mut self, bodies: &Bodies, pieces: &Pieces) {
         let Self { lists, asked, .. } = self;
-        let mut ask = |piece: u32| {
-            let (k, state) = (piece as usize, lists.states[piece as usize]);
+        let mut ask = |piece: PieceIx| {
+            let state = lists.states[piece];
             if state & KNOWN != 0 && state & ASKED == 0 {
-                lists.states[piece as usize] |= ASKED;
+                lists.states[piece] |= ASKED;
                 asked.push(piece);
-                if is_mover(state) && !lists.fat[k].contains(pieces.boxes[k]) {
+                if is_mover(state) && !lists.fat[piece].contains(pieces.boxes[piece]) {
                     lists.enter(piece);
                 }
             }
@@ -75,17 +76,16 @@ impl Broad {
         } = self;
         let [_, late_standing] = core::mem::take(&mut lists.late);
         for piece in late_standing {
-            if lists.states[piece as usize] & STANDS != 0 {
+            if lists.states[piece] & STANDS != 0 {
                 lists.list(piece);
             }
         }
         lists.new.clear();
         let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
         for piece in movers.clone() {
-            let k = piece as usize;
-            lists.states[piece as usize] &= !(KNOWN | NEW | BESIDE | AMONG);
-            if pieces.boxes[k].is_valid() {
-                lists.fatten(piece, pieces.boxes[k], pieces.discs[k].velocity, tick);
+            lists.states[piece] &= !(KNOWN | NEW | BESIDE | AMONG);
+            if pieces.boxes[piece].is_valid() {
+                lists.fatten(piece, pieces, tick);
                 lists.list(piece);
             } else {
                 lists.enter(piece);
@@ -93,7 +93,7 @@ impl Broad {
         }
         let mut pairs = core::mem::take(&mut lists.pairs);
         pairs.clear();
-        let movers = movers.filter(|piece| lists.states[*piece as usize] & LISTED != 0);
+        let movers = movers.filter(|piece| lists.states[*piece] & LISTED != 0);
         sweep.sort(movers.clone(), &lists.fat);
         sweep.pairs(|a, b| {
             if pieces.are_of_two(a, b) {
@@ -101,8 +101,8 @@ impl Broad {
             }
         });
         for piece in movers {
-            let bounds = lists.fat[piece as usize];
-            standing.query(bounds, |other| pairs.push([piece, other]));
+            let bounds = lists.fat[piece];
+            standing.query(bounds, |other| pairs.push([piece, PieceIx(other)]));
         }
         lists.note_partners(&pairs);
         lists.pairs = pairs;
@@ -119,39 +119,38 @@ impl Broad {
             ..
         } = self;
         let mut new = core::mem::take(&mut lists.new);
-        new.retain(|piece| lists.states[*piece as usize] & (NEW | STANDS) == NEW);
+        new.retain(|piece| lists.states[*piece] & (NEW | STANDS) == NEW);
         if new.is_empty() && arrived.is_empty() {
             return;
         }
         new.sort_unstable();
         new.dedup();
         for &piece in &new {
-            let k = piece as usize;
-            lists.fatten(piece, pieces.boxes[k], pieces.discs[k].velocity, tick);
+            lists.fatten(piece, pieces, tick);
         }
         let mut apart = core::mem::take(&mut lists.apart);
         let mut late = core::mem::take(&mut lists.late);
         let lists = &mut self.lists;
-        let state = |piece: u32| lists.states[piece as usize];
-        let fat = |piece: u32| lists.fat[piece as usize];
+        let state = |piece: PieceIx| lists.states[piece];
+        let fat = |piece: PieceIx| lists.fat[piece];
         apart.retain(|pair| !pair.iter().any(|piece| state(*piece) & NEW != 0));
-        let mut add = |a: u32, b: u32| {
+        let mut add = |a: PieceIx, b: PieceIx| {
             if pieces.are_of_two(a, b) {
                 apart.push([a, b]);
             }
         };
-        let listed = |piece: u32| state(piece) & (LISTED | STANDS) == LISTED;
+        let listed = |piece: PieceIx| state(piece) & (LISTED | STANDS) == LISTED;
         for &piece in &new {
             sweep.all_in(fat(piece), |other| {
                 if listed(other) {
                     add(piece, other);
                 }
             });
-            standing.query(fat(piece), |other| add(piece, other));
+            standing.query(fat(piece), |other| add(piece, PieceIx(other)));
         }
         let late_movers = &mut late[0];
         late_movers.retain(|piece| state(*piece) & (LATE | STANDS) == LATE);
-        let left = |piece: u32| fat(piece).min.x;
+        let left = |piece: PieceIx| fat(piece).min.x;
         late_movers.sort_unstable_by(|a, b| left(*a).total_cmp(&left(*b)).then(a.cmp(b)));
         late_movers.dedup();
         for (k, &piece) in late_movers.iter().enumerate() {
@@ -176,9 +175,9 @@ impl Broad {
                 }
             }
         }
-        let arrived: Vec<u32> = arrived.copied().collect();
+        let arrived: Vec<PieceIx> = arrived.copied().collect();
         for piece in new.into_iter().chain(arrived) {
-            lists.states[piece as usize] &= !NEW;
+            lists.states[piece] &= !NEW;
         }
         lists.note_partners(&apart);
         (lists.apart, lists.late) = (apart, late);
@@ -193,29 +192,26 @@ impl Broad {
             found,
             ..
         } = self;
-        let (states, boxes, discs) = (&lists.states[..], &pieces.boxes[..], &pieces.discs[..]);
+        let (states, boxes, discs) = (&lists.states, &pieces.boxes, &pieces.discs);
         // What stands is the second.
-        let mut note = |pair: [u32; 2]| {
-            let [a, b] = pair.map(|piece| piece as usize);
-            if boxes[a].overlaps(boxes[b]) {
-                let near = states[b] & STANDS == 0 || pieces.is_near(pair[0], pair[1]);
-                if near
-                    && discs[a].may_meet(&discs[b], tick)
-                    && !pieces.are_beside(pair[0], pair[1], tick)
-                {
-                    found.push(pair);
-                }
+        let mut note = |[a, b]: [PieceIx; 2]| {
+            if boxes[a].overlaps(boxes[b])
+                && (states[b] & STANDS == 0 || pieces.is_near(a, b))
+                && discs[a].may_meet(&discs[b], tick)
+                && !pieces.are_beside(a, b, tick)
+            {
+                found.push([a, b]);
             }
         };
-        let state = |piece: u32| states[piece as usize];
-        let is_asked = |pair: [u32; 2], known: u8| {
+        let state = |piece: PieceIx| states[piece];
+        let is_asked = |pair: [PieceIx; 2], known: u8| {
             let [a, b] = pair.map(state);
             (a | b) & ASKED != 0 && a & known != 0 && b & known != 0
         };
         if QUERY * self.asked.len() < lists.pairs.len() {
             let listed = self.asked.iter().copied();
             for piece in listed.filter(|piece| state(*piece) & LISTED != 0) {
-                let bounds = boxes[piece as usize];
+                let bounds = boxes[piece];
                 let moves = is_mover(state(piece));
                 sweep.all_in(bounds, |other| {
                     let theirs = state(other);
@@ -230,6 +226,7 @@ impl Broad {
                 });
                 if moves {
                     standing.query(bounds, |other| {
+                        let other = PieceIx(other);
                         if state(other) & (LISTED | ASKED) == LISTED {
                             note([piece, other]);
                         }
@@ -245,7 +242,7 @@ impl Broad {
         let late = lists.apart.iter().copied();
         late.filter(|pair| is_asked(*pair, KNOWN)).for_each(note);
         for &endless in &self.endless {
-            let mut note = |piece: u32| {
+            let mut note = |piece: PieceIx| {
                 if !pieces.is_beyond_plane(piece, endless, tick) {
                     found.push([piece, endless]);
                 }
@@ -255,35 +252,44 @@ impl Broad {
                 .filter(|piece| is_mover(state(*piece)))
                 .for_each(&mut note);
             if self.arrived.contains(&endless) {
-                let others = (0u32..).zip(states);
+                let others = (0..).map(PieceIx).zip(states);
                 let others = others.filter(|(_, state)| is_mover(**state) && *state & ASKED == 0);
                 others.for_each(|(piece, _)| note(piece));
             }
         }
     }
+}
 
+#[cfg(test)]
+impl Broad {
     /// The slow twin of [`Self::find`]: all pairs, in order.
-    #[cfg(test)]
-    pub(crate) fn all_pairs(&self, bodies: &Bodies, pieces: &Pieces, tick: f64) -> Vec<[u32; 2]> {
-        let line = |piece: u32| bodies.line_of(pieces.owners[piece as usize].body);
-        let asks = |piece: u32| {
+    pub(crate) fn all_pairs(
+        &self,
+        bodies: &Bodies,
+        pieces: &Pieces,
+        tick: f64,
+    ) -> Vec<[PieceIx; 2]> {
+        let line = |piece: PieceIx| bodies.line_of(pieces.owners[piece].body);
+        let asks = |piece: PieceIx| {
             let came = self.woken.contains(&piece) || self.arrived.contains(&piece);
             came || line(piece) >= 2 && bodies.moved[line(piece)]
         };
         let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
-        let stands = (0u32..).zip(&self.nodes).filter(|(_, node)| node.is_some());
+        let stands = (0..)
+            .map(PieceIx)
+            .zip(&self.nodes)
+            .filter(|(_, node)| node.is_some());
         let stands = stands.map(|(piece, _)| piece).chain(self.endless.clone());
-        let stands: Vec<u32> = stands.collect();
+        let stands: Vec<PieceIx> = stands.collect();
         let mut all = Vec::new();
         for a in movers.clone() {
             let others = movers
                 .clone()
                 .filter(|b| a < *b && pieces.are_of_two(a, *b));
             for b in others.chain(stands.iter().copied()) {
-                let [of_a, of_b] = [a, b].map(|piece| piece as usize);
-                let overlap = pieces.boxes[of_a].overlaps(pieces.boxes[of_b])
+                let overlap = pieces.boxes[a].overlaps(pieces.boxes[b])
                     && (!stands.contains(&b) || pieces.is_near(a, b));
-                let meet = pieces.discs[of_a].may_meet(&pieces.discs[of_b], tick);
+                let meet = pieces.discs[a].may_meet(&pieces.discs[b], tick);
                 let meet = meet && !pieces.are_beside(a, b, tick);
                 let near = if self.endless.contains(&b) {
                     !pieces.is_beyond_plane(a, b, tick)

@@ -5,9 +5,11 @@
 //! search. A piece that leaves its fat box, or came since, is *late*: it gets a new one, and its pairs lie apart until all are
 //! found anew.
 
+use crate::PieceIx;
 use carom_geometry::Aabb;
 use carom_math::Vec2;
 
+use crate::pieces::Pieces;
 /// A fat box holds the way of so many more ticks, as far as that is no longer than the box. 2: 1.02 of the instructions of a drum,
 /// 5: 1.05.
 const AHEAD: f64 = 3.0;
@@ -43,18 +45,18 @@ pub(super) struct Lists {
     pub(super) states: Vec<u8>,
     pub(super) fat: Vec<Aabb>,
     /// Pairs of listed pieces, as far as they still are.
-    pub(super) pairs: Vec<[u32; 2]>,
+    pub(super) pairs: Vec<[PieceIx; 2]>,
     /// Pairs of late pieces.
-    pub(super) apart: Vec<[u32; 2]>,
+    pub(super) apart: Vec<[PieceIx; 2]>,
     /// Late movers and late pieces that stand, and some that are neither any more.
-    pub(super) late: [Vec<u32>; 2],
+    pub(super) late: [Vec<PieceIx>; 2],
     /// New movers, likewise.
-    pub(super) new: Vec<u32>,
+    pub(super) new: Vec<PieceIx>,
 }
 
 impl Lists {
     /// A mover that came, or left its fat box.
-    pub(super) fn enter(&mut self, piece: u32) {
+    pub(super) fn enter(&mut self, piece: PieceIx) {
         let was = self.cover(piece);
         if !is_mover(was) || was & LATE == 0 {
             self.late[0].push(piece);
@@ -62,26 +64,26 @@ impl Lists {
         if !is_mover(was) || was & NEW == 0 {
             self.new.push(piece);
         }
-        self.states[piece as usize] = was & ASKED | LATE | NEW;
-        self.fat[piece as usize] = Aabb::EMPTY;
+        self.states[piece] = was & ASKED | LATE | NEW;
+        self.fat[piece] = Aabb::EMPTY;
     }
 
     /// It stands in this box from now on.
-    pub(super) fn stand(&mut self, piece: u32, bounds: Aabb) {
+    pub(super) fn stand(&mut self, piece: PieceIx, bounds: Aabb) {
         self.cover(piece);
         self.late[1].push(piece);
-        self.states[piece as usize] = LATE | STANDS | NEW;
-        self.fat[piece as usize] = bounds;
+        self.states[piece] = LATE | STANDS | NEW;
+        self.fat[piece] = bounds;
     }
 
-    pub(super) fn leave(&mut self, piece: u32) {
+    pub(super) fn leave(&mut self, piece: PieceIx) {
         self.cover(piece);
-        self.states[piece as usize] = 0;
+        self.states[piece] = 0;
     }
 
     /// There is such a piece, and how it was.
-    fn cover(&mut self, piece: u32) -> u8 {
-        let k = piece as usize;
+    fn cover(&mut self, piece: PieceIx) -> u8 {
+        let k = piece.at();
         if self.states.len() <= k {
             self.states.resize(k + 1, 0);
             self.fat.resize(k + 1, Aabb::EMPTY);
@@ -89,33 +91,34 @@ impl Lists {
         self.states[k]
     }
 
-    /// Makes the fat box of a mover, which keeps its `velocity` for a while, around its box.
-    pub(super) fn fatten(&mut self, piece: u32, bounds: Aabb, velocity: Vec2, tick: f64) {
+    /// Makes the fat box of a mover, which keeps its velocity for a while, around its box.
+    pub(super) fn fatten(&mut self, piece: PieceIx, pieces: &Pieces, tick: f64) {
+        let bounds = pieces.boxes[piece];
         let size = bounds.extents();
-        let ahead = (velocity * (AHEAD * tick)).clamp(-size, size);
+        let ahead = (pieces.discs[piece].velocity * (AHEAD * tick)).clamp(-size, size);
         let room = Vec2::splat(ROOM * size.min_element());
-        self.fat[piece as usize] = Aabb::new(
+        self.fat[piece] = Aabb::new(
             bounds.min + ahead.min(Vec2::ZERO) - room,
             bounds.max + ahead.max(Vec2::ZERO) + room,
         );
     }
 
     /// Notes which pieces have pairs. What stands is the second of its pairs.
-    pub(super) fn note_partners(&mut self, pairs: &[[u32; 2]]) {
+    pub(super) fn note_partners(&mut self, pairs: &[[PieceIx; 2]]) {
         let states = &mut self.states;
         for [a, b] in pairs {
-            if states[*b as usize] & STANDS != 0 {
-                states[*a as usize] |= BESIDE;
+            if states[*b] & STANDS != 0 {
+                states[*a] |= BESIDE;
             } else {
-                states[*a as usize] |= AMONG;
-                states[*b as usize] |= AMONG;
+                states[*a] |= AMONG;
+                states[*b] |= AMONG;
             }
         }
     }
 
     /// The pairs of a piece will be in the lists.
-    pub(super) fn list(&mut self, piece: u32) {
-        let state = &mut self.states[piece as usize];
+    pub(super) fn list(&mut self, piece: PieceIx) {
+        let state = &mut self.states[piece];
         *state = *state & !(LATE | NEW) | LISTED;
     }
 }

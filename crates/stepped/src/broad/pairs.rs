@@ -1,12 +1,10 @@
 //! Which pairs of pieces have a contact.
 
+use crate::PieceIx;
 use std::collections::BTreeSet;
 
 /// Partners in a list. Boxes in a pile have six, and rarely more than eight.
 const ROOM: usize = 14;
-
-/// No piece.
-const NONE: u32 = u32::MAX;
 
 /// Partners of each piece, in lists of both pieces: movers are asked about others one after the other,
 /// and have theirs at hand. What has many (a floor) is in the lists of the many.
@@ -14,14 +12,14 @@ const NONE: u32 = u32::MAX;
 pub(crate) struct Pairs {
     lists: Vec<Partners>,
     /// Pairs that neither of the two lists had room for, the lesser piece first.
-    rest: BTreeSet<[u32; 2]>,
+    rest: BTreeSet<[PieceIx; 2]>,
 }
 
 /// A cache line: pieces are compared all at once.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 struct Partners {
-    pieces: [u32; ROOM],
+    pieces: [PieceIx; ROOM],
     len: u32,
     /// Partners that are not in the list.
     missing: u32,
@@ -29,12 +27,12 @@ struct Partners {
 
 impl Partners {
     const NONE: Self = Self {
-        pieces: [NONE; ROOM],
+        pieces: [PieceIx::NONE; ROOM],
         len: 0,
         missing: 0,
     };
 
-    fn contains(&self, piece: u32) -> bool {
+    fn contains(&self, piece: PieceIx) -> bool {
         let mut found = false;
         for other in self.pieces {
             found |= other == piece;
@@ -42,13 +40,13 @@ impl Partners {
         found
     }
 
-    fn find(&self, piece: u32) -> Option<usize> {
+    fn find(&self, piece: PieceIx) -> Option<usize> {
         let pieces = &self.pieces[..self.len as usize];
         pieces.iter().position(|other| *other == piece)
     }
 
     /// Whether there was room.
-    fn insert(&mut self, piece: u32) -> bool {
+    fn insert(&mut self, piece: PieceIx) -> bool {
         let at = self.len as usize;
         let room = at < ROOM;
         if room {
@@ -61,13 +59,13 @@ impl Partners {
     }
 
     /// Whether it was there.
-    fn remove(&mut self, piece: u32) -> bool {
+    fn remove(&mut self, piece: PieceIx) -> bool {
         let found = self.find(piece);
         if let Some(at) = found {
             self.len -= 1;
             let last = self.len as usize;
             self.pieces[at] = self.pieces[last];
-            self.pieces[last] = NONE;
+            self.pieces[last] = PieceIx::NONE;
         } else {
             self.missing -= 1;
         }
@@ -77,45 +75,45 @@ impl Partners {
 
 impl Pairs {
     /// Whether a pair has a contact; the first had better be the one that is asked about more often.
-    pub(crate) fn contains(&self, [a, b]: [u32; 2]) -> bool {
-        let Some(of_a) = self.lists.get(a as usize) else {
+    pub(crate) fn contains(&self, [a, b]: [PieceIx; 2]) -> bool {
+        let Some(of_a) = self.lists.get(a.at()) else {
             return false;
         };
         of_a.contains(b) || of_a.missing > 0 && self.contains_otherwise([a, b])
     }
 
     /// Whether it does where the list of A may lack B.
-    fn contains_otherwise(&self, [a, b]: [u32; 2]) -> bool {
+    fn contains_otherwise(&self, [a, b]: [PieceIx; 2]) -> bool {
         // A piece that never had a contact has no list.
-        self.lists.get(b as usize).is_some_and(|of_b| {
+        self.lists.get(b.at()).is_some_and(|of_b| {
             of_b.contains(a) || of_b.missing > 0 && self.rest.contains(&in_order([a, b]))
         })
     }
 
     /// A pair without a contact gets one.
-    pub(crate) fn insert(&mut self, [a, b]: [u32; 2]) {
-        let len = a.max(b) as usize + 1;
+    pub(crate) fn insert(&mut self, [a, b]: [PieceIx; 2]) {
+        let len = a.max(b).at() + 1;
         if self.lists.len() < len {
             self.lists.resize(len, Partners::NONE);
         }
-        let in_a = self.lists[a as usize].insert(b);
-        let in_b = self.lists[b as usize].insert(a);
+        let in_a = self.lists[a.at()].insert(b);
+        let in_b = self.lists[b.at()].insert(a);
         if !in_a && !in_b {
             self.rest.insert(in_order([a, b]));
         }
     }
 
     /// A pair with a contact has none any more.
-    pub(crate) fn remove(&mut self, [a, b]: [u32; 2]) {
-        let in_a = self.lists[a as usize].remove(b);
-        let in_b = self.lists[b as usize].remove(a);
+    pub(crate) fn remove(&mut self, [a, b]: [PieceIx; 2]) {
+        let in_a = self.lists[a.at()].remove(b);
+        let in_b = self.lists[b.at()].remove(a);
         if !in_a && !in_b {
             self.rest.remove(&in_order([a, b]));
         }
     }
 }
 
-fn in_order([a, b]: [u32; 2]) -> [u32; 2] {
+fn in_order([a, b]: [PieceIx; 2]) -> [PieceIx; 2] {
     [a.min(b), a.max(b)]
 }
 
@@ -130,7 +128,7 @@ mod tests {
         let mut full = 0;
         for step in 0..40_000 {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            let (a, b) = (random >> 27, random >> 22 & 31);
+            let (a, b) = (PieceIx(random >> 27), PieceIx(random >> 22 & 31));
             let pair = in_order([a, b]);
             // Lists fill, and empty again.
             let inserts = (random >> 8 & 63) < if step / 2000 % 2 == 0 { 48 } else { 16 };
@@ -149,7 +147,7 @@ mod tests {
                 _ => {}
             }
             full += usize::from(!pairs.rest.is_empty());
-            let probe = [random >> 10 & 31, random >> 5 & 31];
+            let probe = [random >> 10 & 31, random >> 5 & 31].map(PieceIx);
             assert_eq!(pairs.contains(probe), set.contains(&in_order(probe)));
         }
         assert!(full > 1000, "{full}");
@@ -159,9 +157,10 @@ mod tests {
     fn a_piece_without_contacts_is_in_no_full_list() {
         let mut pairs = Pairs::default();
         for other in 1..40 {
-            pairs.insert([0, other]);
+            pairs.insert([PieceIx(0), PieceIx(other)]);
         }
-        assert!(pairs.contains([0, 39]) && pairs.contains([39, 0]));
-        assert!(!pairs.contains([0, 40]) && !pairs.contains([40, 0]));
+        let contains = |a, b| pairs.contains([PieceIx(a), PieceIx(b)]);
+        assert!(contains(0, 39) && contains(39, 0));
+        assert!(!contains(0, 40) && !contains(40, 0));
     }
 }

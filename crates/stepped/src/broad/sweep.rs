@@ -5,6 +5,7 @@
 //! driven, bullets) are in no strip, and ask all strips that they cross. Everything here decides what is found at which
 //! cost, and nothing what comes of it: pairs are sorted before they are used.
 
+use crate::PieceIx;
 use carom_geometry::Aabb;
 
 /// A box more than so many times the median is unusual. Less: many boxes ask one by one; more: strips so high that
@@ -21,7 +22,7 @@ const NO_STRIP: u32 = u32::MAX;
 #[derive(Clone, Copy, Debug)]
 struct Mover {
     strip: u32,
-    piece: u32,
+    piece: PieceIx,
     bounds: Aabb,
 }
 
@@ -39,12 +40,12 @@ pub(crate) struct Sweep {
 
 impl Sweep {
     /// Makes the order of these movers, each piece once, with boxes by piece.
-    pub(crate) fn sort(&mut self, pieces: impl Iterator<Item = u32> + Clone, boxes: &[Aabb]) {
-        let size = |piece: u32| boxes[piece as usize].extents().max_element();
+    pub(crate) fn sort(&mut self, pieces: impl Iterator<Item = PieceIx> + Clone, boxes: &[Aabb]) {
+        let size = |piece: PieceIx| boxes[piece.at()].extents().max_element();
         self.height = usual_height(pieces.clone().map(size).collect());
         self.movers.clear();
         for piece in pieces {
-            let bounds = boxes[piece as usize];
+            let bounds = boxes[piece.at()];
             let strip = if size(piece) <= self.height {
                 self.strip(bounds.min.y)
             } else {
@@ -87,7 +88,7 @@ impl Sweep {
     }
 
     /// Finds all pairs with boxes that overlap.
-    pub(crate) fn pairs(&self, mut found: impl FnMut(u32, u32)) {
+    pub(crate) fn pairs(&self, mut found: impl FnMut(PieceIx, PieceIx)) {
         for (n, &(strip, first)) in self.strips.iter().enumerate() {
             let end = self.end(n);
             // The next strip is swept by a second finger, which only goes forward.
@@ -98,7 +99,7 @@ impl Sweep {
             let (mut finger, beyond) = next.map_or((0, 0), |next| (next.1, self.end(n + 1)));
             for k in first..end {
                 let Mover { piece, bounds, .. } = self.movers[k];
-                let mut tell = |other: u32| found(piece, other);
+                let mut tell = |other: PieceIx| found(piece, other);
                 forward(&self.movers[k + 1..end], bounds, &mut tell);
                 let left = self.leftmost(bounds);
                 while finger < beyond && self.movers[finger].bounds.min.x < left {
@@ -109,20 +110,20 @@ impl Sweep {
         }
         for k in self.unusual..self.len() {
             let Mover { piece, bounds, .. } = self.movers[k];
-            let mut tell = |other: u32| found(piece, other);
+            let mut tell = |other: PieceIx| found(piece, other);
             self.usual_in(bounds, &mut tell);
             forward(&self.movers[k + 1..], bounds, &mut tell);
         }
     }
 
     /// Finds all movers with a box that overlaps `bounds`.
-    pub(crate) fn all_in(&self, bounds: Aabb, mut found: impl FnMut(u32)) {
+    pub(crate) fn all_in(&self, bounds: Aabb, mut found: impl FnMut(PieceIx)) {
         self.usual_in(bounds, &mut found);
         forward(&self.movers[self.unusual..], bounds, &mut found);
     }
 
     /// Finds what lies in the strips.
-    fn usual_in(&self, bounds: Aabb, found: &mut impl FnMut(u32)) {
+    fn usual_in(&self, bounds: Aabb, found: &mut impl FnMut(PieceIx)) {
         let lowest = self.strip(bounds.min.y).saturating_sub(1);
         let highest = self.strip(bounds.max.y);
         let left = self.leftmost(bounds);
@@ -161,7 +162,7 @@ fn usual_height(mut sizes: Vec<f64>) -> f64 {
 }
 
 /// Tells of the movers, in order of their left ends, with boxes that overlap `bounds`.
-fn forward(movers: &[Mover], bounds: Aabb, found: &mut impl FnMut(u32)) {
+fn forward(movers: &[Mover], bounds: Aabb, found: &mut impl FnMut(PieceIx)) {
     for mover in movers {
         if mover.bounds.min.x > bounds.max.x {
             break;
@@ -205,24 +206,25 @@ mod tests {
                     *bounds = Aabb::new(bounds.min + by, bounds.max + by);
                 }
             }
-            sweep.sort(0..200, &boxes);
+            let pieces = PieceIx(0).run(200);
+            sweep.sort(pieces.clone(), &boxes);
             let mut found = Vec::new();
             sweep.pairs(|a, b| {
-                found.push((a.min(b), a.max(b)));
+                found.push((a.min(b).at(), a.max(b).at()));
             });
             found.sort_unstable();
             let mut all = Vec::new();
-            for a in 0..200u32 {
+            for a in 0..200 {
                 for b in a + 1..200 {
-                    if boxes[a as usize].overlaps(boxes[b as usize]) {
+                    if boxes[a].overlaps(boxes[b]) {
                         all.push((a, b));
                     }
                 }
                 let mut near = Vec::new();
-                sweep.all_in(boxes[a as usize], |b| near.push(b));
+                sweep.all_in(boxes[a], |b| near.push(b));
                 near.sort_unstable();
-                let meets = |b: &u32| boxes[*b as usize].overlaps(boxes[a as usize]);
-                assert_eq!(near, (0..200).filter(meets).collect::<Vec<_>>());
+                let meets = |b: &PieceIx| boxes[*b].overlaps(boxes[a]);
+                assert_eq!(near, pieces.clone().filter(meets).collect::<Vec<_>>());
             }
             assert_eq!(found, all);
         }

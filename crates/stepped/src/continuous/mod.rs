@@ -91,7 +91,7 @@ impl Engine {
         let ends = [from.position, self.bodies.pose_of(id.slot).position];
         let around = Aabb::from_points(ends).grown(record.reach);
         for piece in record.pieces() {
-            let bounds = &mut self.pieces.boxes[piece as usize];
+            let bounds = &mut self.pieces.boxes[piece];
             *bounds = bounds.union(around);
             self.broad.enter(piece);
         }
@@ -106,7 +106,7 @@ impl Engine {
         self.fast_bodies.retain(|body| body.slot != id.slot);
         // No rows hold it: what is thin is fast where it goes by less than an extent allows.
         let pieces = record.pieces();
-        let widths = pieces.map(|piece| self.pieces.list[piece as usize].width());
+        let widths = pieces.map(|piece| self.pieces.list[piece].width());
         let limit = Limit {
             extent: widths.fold(f64::INFINITY, f64::min),
             ..self.bodies.limits[at]
@@ -374,7 +374,7 @@ impl Engine {
         let base = self.bodies.base[at].position;
         let (from, to) = (base + body.from.0, base + self.bodies.lines[at].d());
         let boxes = record.pieces();
-        let boxes = boxes.map(|piece| self.pieces.boxes[piece as usize]);
+        let boxes = boxes.map(|piece| self.pieces.boxes[piece]);
         let boxes = boxes.fold(Aabb::EMPTY, Aabb::union);
         !(boxes.contains_point(from) && boxes.contains_point(to))
     }

@@ -10,7 +10,7 @@ use super::touching::Touching;
 use super::{Fast, FastBody, Moving, SHORT};
 use crate::bodies::{Bodies, number};
 use crate::narrow::arc;
-use crate::{BodyIx, Engine, PairRules, Settings};
+use crate::{BodyIx, Engine, PairRules, PieceIx, Settings};
 
 impl Engine {
     /// Enters the first touches of fast body `k` with others from `span.0` to `span.1` seconds on.
@@ -27,12 +27,12 @@ impl Engine {
             return;
         }
         let bounds = fast.bounds(self, k, span.1);
-        let mut others: Vec<u32> = Vec::new();
+        let mut others: Vec<PieceIx> = Vec::new();
         if standing {
             self.broad.standing_in(bounds, |piece| others.push(piece));
         }
         if movers {
-            let found = |piece: u32| others.push(piece);
+            let found = |piece: PieceIx| others.push(piece);
             self.broad.movers_in(&self.pieces, bounds, found);
         }
         for &other in &fast.leaving {
@@ -44,7 +44,7 @@ impl Engine {
         self.first_parts(&mut others);
         let birth = self.bodies.records[fast.noted[k].slot].birth;
         for piece in others {
-            let slot = self.pieces.list[piece as usize].body;
+            let slot = self.pieces.list[piece].body;
             let partner = fast.find(slot);
             // A pair of which both search among moving bodies is searched once.
             let earlier = self.bodies.records[slot].birth < birth;
@@ -76,12 +76,12 @@ impl Engine {
         for k in 0..fast.noted.len() {
             let [standing, movers] = fast.sought[k];
             let moves = fast.noted[k].is_unforeseen() && !movers;
-            for piece in 0..number(self.pieces.list.len()) {
-                let other = &self.pieces.list[piece as usize];
+            for piece in PieceIx(0).run(number(self.pieces.list.len())) {
+                let other = &self.pieces.list[piece];
                 let line = self.bodies.records[other.body].line;
                 let stands = [Bodies::GROUND, Bodies::NONE].contains(&line);
                 let is_left_out = if stands { !standing } else { moves };
-                if self.pieces.boxes[piece as usize].is_valid()
+                if self.pieces.boxes[piece].is_valid()
                     && other.part == 0
                     && other.body != fast.noted[k].slot
                     && is_left_out
@@ -112,12 +112,12 @@ impl Engine {
         touches: &mut BinaryHeap<Touching>,
     ) {
         let bounds = fast.bounds(self, k, span.1);
-        let mut others: Vec<u32> = Vec::new();
-        let found = |piece: u32| others.push(piece);
+        let mut others: Vec<PieceIx> = Vec::new();
+        let found = |piece: PieceIx| others.push(piece);
         self.broad.pieces_in(&self.pieces, bounds, found);
         self.first_parts(&mut others);
         for piece in others {
-            let slot = self.pieces.list[piece as usize].body;
+            let slot = self.pieces.list[piece].body;
             if fast.find(slot).is_none() {
                 self.search_piece(fast, (k, None), piece, span, rules, touches);
             }
@@ -137,7 +137,7 @@ impl Engine {
         let bounds = fast.bounds(self, changed, span.1);
         let mut others = fast.unboxed.clone();
         self.broad.pieces_in(&self.pieces, bounds, |piece| {
-            others.extend(fast.find(self.pieces.list[piece as usize].body));
+            others.extend(fast.find(self.pieces.list[piece].body));
         });
         others.sort_unstable();
         others.dedup();
@@ -146,7 +146,7 @@ impl Engine {
             {
                 continue;
             }
-            let mut pieces: Vec<u32> = record.pieces().collect();
+            let mut pieces: Vec<PieceIx> = record.pieces().collect();
             self.first_parts(&mut pieces);
             for piece in pieces {
                 self.search_piece(fast, (k, Some(changed)), piece, span, rules, touches);
@@ -155,9 +155,9 @@ impl Engine {
     }
 
     /// A shape is searched whole, from its first part on.
-    fn first_parts(&self, pieces: &mut Vec<u32>) {
+    fn first_parts(&self, pieces: &mut Vec<PieceIx>) {
         for piece in &mut *pieces {
-            *piece -= number(self.pieces.list[*piece as usize].part);
+            piece.0 -= number(self.pieces.list[*piece].part);
         }
         pieces.sort_unstable();
         pieces.dedup();
@@ -168,13 +168,13 @@ impl Engine {
         &self,
         fast: &mut Fast,
         (k, partner): (usize, Option<usize>),
-        piece: u32,
+        piece: PieceIx,
         span: (f64, f64),
         rules: &dyn PairRules,
         touches: &mut BinaryHeap<Touching>,
     ) {
         let body = *fast.of(self, k);
-        let theirs = &self.pieces.list[piece as usize];
+        let theirs = &self.pieces.list[piece];
         let motion = match partner {
             Some(other) => fast.of(self, other).motion,
             None => self.motion(theirs.body, None, span.1),
@@ -212,22 +212,22 @@ impl Engine {
     fn first_touch(
         &self,
         body: &Moving,
-        (piece, motion): (u32, &Motion),
+        (piece, motion): (PieceIx, &Motion),
         (from, to): (f64, f64),
         rules: &dyn PairRules,
     ) -> Option<(f64, Option<Vec2>)> {
         let mine = &self.bodies.records[body.slot];
         let start = SimTime::ZERO + from;
         let (own, other) = (body.motion.rebased(start), motion.rebased(start));
-        let target = self.pieces.list[piece as usize].shape();
+        let target = self.pieces.list[piece].shape();
         let between = own.pose_at(start).inverse() * other.pose_at(start);
         // By no more than this do they come nearer.
-        let reach = self.bodies.records[self.pieces.list[piece as usize].body].reach;
+        let reach = self.bodies.records[self.pieces.list[piece].body].reach;
         let turns = arc(own.spin, mine.reach) + arc(other.spin, reach);
         let nearing = ((own.velocity - other.velocity).length() + turns) * (to - from);
         let mut first: Option<(f64, Option<Vec2>)> = None;
         for number in mine.pieces() {
-            let piece_of_mine = &self.pieces.list[number as usize];
+            let piece_of_mine = &self.pieces.list[number];
             if piece_of_mine.part != 0
                 || self.is_held([number, piece], body.slot)
                 || self.pieces.surface([number, piece], rules).is_none()
@@ -270,12 +270,11 @@ impl Engine {
     }
 
     /// Whether a row of two pieces is there that a body on its way cannot turn out of.
-    fn is_held(&self, pair: [u32; 2], slot: BodyIx) -> bool {
+    fn is_held(&self, pair: [PieceIx; 2], slot: BodyIx) -> bool {
         let at = self.bodies.line_of(slot);
         let turn = self.bodies.lines[at].w() * self.law.h;
         // One sweep may leave much of a blow: what stands is sought whether there is a row or not.
-        let stands =
-            self.bodies.records[self.pieces.list[pair[1] as usize].body].line == Bodies::GROUND;
+        let stands = self.bodies.records[self.pieces.list[pair[1]].body].line == Bodies::GROUND;
         !stands && self.known.contains(pair) && !self.bodies.limits[at].is_far(0.0, turn)
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::bodies::Bodies;
 use crate::rows::Graph;
-use crate::{BodyIx, Settings};
+use crate::{BodyIx, PieceIx, Settings};
 
 /// Which islands a rule admits: by points of contact, as matrices are dense, and by bodies.
 #[derive(Clone, Copy)]
@@ -50,7 +50,7 @@ const WITH_FAST: Admits = Admits::points(16, 20);
 const ALONG: f64 = 1e-3;
 
 /// A contact, as long as its bodies are there: births and pieces of both. Numbers of contacts are given anew.
-pub(super) type Key = ([u64; 2], [u32; 2]);
+pub(super) type Key = ([u64; 2], [PieceIx; 2]);
 
 pub(super) fn keys(graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Vec<Key> {
     let key = |id: &u32| {

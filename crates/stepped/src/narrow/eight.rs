@@ -3,6 +3,7 @@
 use carom_math::Vec2;
 
 use super::Manifold;
+use crate::PieceIx;
 use crate::outline::Outline;
 use crate::pieces::Pieces;
 use crate::rows::{Block, LANES};
@@ -42,7 +43,12 @@ impl<'a> Eight<'a> {
     }
 
     /// Puts two pieces into a lane, if both have outlines.
-    pub(crate) fn set_pieces(&mut self, pieces: &'a Pieces, lane: usize, pair: [u32; 2]) -> bool {
+    pub(crate) fn set_pieces(
+        &mut self,
+        pieces: &'a Pieces,
+        lane: usize,
+        pair: [PieceIx; 2],
+    ) -> bool {
         let [a, b] = pair.map(|piece| pieces.outline(piece));
         let all = a.count().min(b.count()) > 0.0;
         if all {

@@ -3,6 +3,7 @@
 use carom_math::{Vec2, perp};
 
 use super::{HYSTERESIS, Manifold, Scene};
+use crate::PieceIx;
 use crate::outline::Outline;
 
 /// Where B is from A, and what they do until the next tick.
@@ -31,11 +32,11 @@ impl Going {
 pub(crate) fn contact_on(
     scene: &Scene<'_>,
     side: Vec2,
-    pair: [u32; 2],
+    pair: [PieceIx; 2],
     factor: f64,
 ) -> Option<Manifold> {
     let meeting = scene.meeting(pair);
-    let [slot_a, slot_b] = pair.map(|piece| scene.pieces.list[piece as usize].body);
+    let [slot_a, slot_b] = pair.map(|piece| scene.pieces.list[piece].body);
     let turns = [slot_a, slot_b].map(|slot| scene.bodies.velocity_of(slot).1 * scene.settings.tick);
     let [base_a, base_b] = [slot_a, slot_b].map(|slot| scene.bodies.base_of(slot).position);
     let going = Going {

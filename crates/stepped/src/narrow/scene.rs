@@ -7,10 +7,10 @@ use fearless_simd::Level;
 
 use super::hulls::overlaps_across_cuts;
 use super::{Eight, Found, Manifold, collide_any, collide_eight};
-use crate::Settings;
 use crate::bodies::{Bodies, number};
 use crate::pieces::Pieces;
 use crate::rows::LANES;
+use crate::{PieceIx, Settings};
 
 /// Part of a margin by which B's face must separate better than A's: flush faces keep one owner.
 pub(super) const HYSTERESIS: f64 = 0.1;
@@ -37,12 +37,17 @@ pub(super) struct Meeting {
 
 impl Scene<'_> {
     /// The contact of two pieces if their gap is below `factor` margins, or may be until the next tick.
-    pub(crate) fn contact(&self, pair: [u32; 2], factor: f64) -> Option<Manifold> {
+    pub(crate) fn contact(&self, pair: [PieceIx; 2], factor: f64) -> Option<Manifold> {
         self.contact_on(Vec2::ZERO, pair, factor)
     }
 
     /// The same with B on that `side` of A, as a normal from A to B. On any if it is zero, or a piece has no outline.
-    pub(crate) fn contact_on(&self, side: Vec2, pair: [u32; 2], factor: f64) -> Option<Manifold> {
+    pub(crate) fn contact_on(
+        &self,
+        side: Vec2,
+        pair: [PieceIx; 2],
+        factor: f64,
+    ) -> Option<Manifold> {
         let mut eight = Eight::new(self.pieces, pair.map(|piece| [self.line_of(piece); LANES]));
         if eight.set_pieces(self.pieces, 0, pair) {
             eight.least[0] = self.seen(pair.map(|piece| self.line_of(piece)));
@@ -53,7 +58,7 @@ impl Scene<'_> {
         }
         let meeting = self.meeting(pair);
         let margin = factor * meeting.margin;
-        let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
+        let [a, b] = pair.map(|piece| &self.pieces.list[piece]);
         let [pose_a, mut pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
         pose_b.position += meeting.gone;
         let limit = margin + meeting.beside + meeting.way.length();
@@ -65,17 +70,17 @@ impl Scene<'_> {
     }
 
     /// Whether two pieces without a contact are in each other by more than a margin: across cuts.
-    pub(crate) fn overlaps_across_cuts(&self, pair: [u32; 2]) -> bool {
+    pub(crate) fn overlaps_across_cuts(&self, pair: [PieceIx; 2]) -> bool {
         let margin = self.margin(pair);
-        let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
+        let [a, b] = pair.map(|piece| &self.pieces.list[piece]);
         let [pose_a, mut pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
         pose_b.position += self.meeting(pair).gone;
         overlaps_across_cuts((a, pose_a), (b, pose_b), margin)
     }
 
     /// Whether a piece of a concave shape is in another one by more than a margin. Out of a half-plane all go one way.
-    pub(crate) fn is_entangled(&self, pair: [u32; 2], gap: f64) -> bool {
-        let shapes = pair.map(|piece| self.pieces.list[piece as usize].shape());
+    pub(crate) fn is_entangled(&self, pair: [PieceIx; 2], gap: f64) -> bool {
+        let shapes = pair.map(|piece| self.pieces.list[piece].shape());
         gap < -self.margin(pair)
             && shapes.iter().any(|shape| part_count(shape) > 1)
             && !shapes
@@ -85,8 +90,8 @@ impl Scene<'_> {
 
     /// The shortest way out of the whole shapes of two pieces, as a contact in the middle of what both boxes hold of these; `None` if they
     /// are apart.
-    pub(crate) fn way_out(&self, pair: [u32; 2]) -> Option<Manifold> {
-        let [a, b] = pair.map(|piece| &self.pieces.list[piece as usize]);
+    pub(crate) fn way_out(&self, pair: [PieceIx; 2]) -> Option<Manifold> {
+        let [a, b] = pair.map(|piece| &self.pieces.list[piece]);
         let [pose_a, mut pose_b] = [a.body, b.body].map(|slot| self.bodies.base_of(slot));
         let gone = self.meeting(pair).gone;
         pose_b.position += gone;
@@ -102,8 +107,8 @@ impl Scene<'_> {
     }
 
     /// The line of a piece's body; that of fixed ones if it sleeps.
-    fn line_of(&self, piece: u32) -> u32 {
-        number(self.bodies.line_of(self.pieces.list[piece as usize].body))
+    fn line_of(&self, piece: PieceIx) -> u32 {
+        number(self.bodies.line_of(self.pieces.list[piece].body))
     }
 
     /// What the bodies of two lines may close by unseen, in m: each may be a tolerance off its base pose, and go as far again.
@@ -121,14 +126,14 @@ impl Scene<'_> {
     }
 
     /// Gaps of two pieces below it make a contact, in m.
-    pub(crate) fn margin(&self, pair: [u32; 2]) -> f64 {
-        let [a, b] = pair.map(|piece| self.pieces.list[piece as usize].extent);
+    pub(crate) fn margin(&self, pair: [PieceIx; 2]) -> f64 {
+        let [a, b] = pair.map(|piece| self.pieces.list[piece].extent);
         let seen = self.seen(pair.map(|piece| self.line_of(piece)));
         seen.max(self.settings.margin * a.min(b))
     }
 
-    pub(super) fn meeting(&self, pair: [u32; 2]) -> Meeting {
-        let [a, b] = pair.map(|piece| self.pieces.list[piece as usize].reach);
+    pub(super) fn meeting(&self, pair: [PieceIx; 2]) -> Meeting {
+        let [a, b] = pair.map(|piece| self.pieces.list[piece].reach);
         let [line_a, line_b] = pair.map(|piece| &self.bodies.lines[self.line_of(piece) as usize]);
         let turning = arc(line_a.w(), a) + arc(line_b.w(), b);
         let turned = arc(line_a.turn(), a) + arc(line_b.turn(), b);
@@ -144,7 +149,7 @@ impl Scene<'_> {
     }
 
     /// How far the nearer point closes from the base poses until the next tick, in m, if velocities stay but for gravity.
-    pub(crate) fn closes(&self, pair: [u32; 2], found: &Manifold) -> f64 {
+    pub(crate) fn closes(&self, pair: [PieceIx; 2], found: &Manifold) -> f64 {
         let lines = pair.map(|piece| self.line_of(piece) as usize);
         let [a, b] = lines.map(|line| &self.bodies.lines[line]);
         let pull: Vec2 = self.bodies.pull[lines[1]].v() - self.bodies.pull[lines[0]].v();
@@ -160,7 +165,7 @@ impl Scene<'_> {
     }
 
     /// The least gap at the next tick, in m, if velocities stay but, if it `falls`, for gravity: each point goes its own way.
-    pub(crate) fn gap_ahead(&self, pair: [u32; 2], found: &Manifold, falls: bool) -> f64 {
+    pub(crate) fn gap_ahead(&self, pair: [PieceIx; 2], found: &Manifold, falls: bool) -> f64 {
         let lines = pair.map(|piece| self.line_of(piece) as usize);
         let [a, b] = lines.map(|line| &self.bodies.lines[line]);
         let pull = if falls {

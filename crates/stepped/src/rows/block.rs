@@ -3,6 +3,7 @@
 use carom_math::{Vec2, perp};
 
 use super::line::{Line, Quad};
+use crate::PieceIx;
 use crate::bodies::Bodies;
 use crate::narrow::Manifold;
 
@@ -79,7 +80,7 @@ pub(crate) struct Block {
 pub(crate) struct Cold {
     /// Numbers of the contacts.
     pub(crate) contact: [u32; LANES],
-    pub(crate) pieces: [[u32; 2]; LANES],
+    pub(crate) pieces: [[PieceIx; 2]; LANES],
     /// Coefficients of restitution.
     pub(crate) restitution: [f64; LANES],
     /// How fast the surfaces run, together, in m/s.
@@ -254,7 +255,7 @@ impl Block {
 impl Cold {
     pub(crate) const EMPTY: Self = Self {
         contact: [u32::MAX; LANES],
-        pieces: [[u32::MAX; 2]; LANES],
+        pieces: [[PieceIx::NONE; 2]; LANES],
         restitution: [0.0; LANES],
         belt: [0.0; LANES],
         hidden: [[0.0; 2]; LANES],

@@ -1,6 +1,7 @@
 //! The blocks of one colour, and which lanes are in use.
 
 use super::block::{Block, Cold, LANES};
+use crate::PieceIx;
 
 /// The blocks of one colour; a block and its cold part have the same number.
 #[derive(Clone, Debug, Default)]
@@ -41,7 +42,7 @@ impl Colour {
     }
 
     /// Gives the next lane to a contact, or a block of its own.
-    pub(super) fn push(&mut self, alone: bool, id: u32, pieces: [u32; 2]) -> usize {
+    pub(super) fn push(&mut self, alone: bool, id: u32, pieces: [PieceIx; 2]) -> usize {
         let index = if alone {
             self.blocks.len() * LANES
         } else {
@@ -151,7 +152,7 @@ mod tests {
         let mut colour = Colour::default();
         let count = 4000;
         for id in 0..count {
-            let _index = colour.push(true, id, [id, id]);
+            let _index = colour.push(true, id, [PieceIx(id); 2]);
         }
         let mut place: Vec<usize> = (0..count as usize).collect();
         let (mut left, mut moves) = ((0..count).collect::<Vec<u32>>(), 0);

@@ -6,7 +6,7 @@ use super::colour::Colour;
 use crate::bodies::{Bodies, BodyKind, number};
 use crate::ghost::Suspects;
 use crate::narrow::Manifold;
-use crate::{BodyIx, Surface};
+use crate::{BodyIx, PieceIx, Surface};
 
 /// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
 pub(crate) const COLOURS: usize = 64;
@@ -33,7 +33,7 @@ const END: u32 = u32::MAX;
 pub(crate) struct Contact {
     /// Slots of A and B: A was inserted first.
     pub(crate) bodies: [BodyIx; 2],
-    pub(crate) pieces: [u32; 2],
+    pub(crate) pieces: [PieceIx; 2],
     pub(crate) colour: u32,
     /// The colour that it had awake.
     pub(super) home: u32,
@@ -142,7 +142,7 @@ impl Graph {
         &mut self,
         bodies: &mut Bodies,
         ends: [BodyIx; 2],
-        pieces: [u32; 2],
+        pieces: [PieceIx; 2],
         (manifold, deepest, (by, is_whole)): (&Manifold, f64, (Pressed, bool)),
         surface: Surface,
     ) -> u32 {

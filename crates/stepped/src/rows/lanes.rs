@@ -7,7 +7,7 @@ use super::colour::Colour;
 use super::graph::{ASLEEP, Graph, HARD};
 use crate::bodies::Bodies;
 use crate::narrow::Manifold;
-use crate::{BodyIx, Surface};
+use crate::{BodyIx, PieceIx, Surface};
 
 impl Graph {
     /// The block and lane of a contact.
@@ -28,7 +28,7 @@ impl Graph {
     }
 
     /// Whether there is such a contact of these pieces, and it is awake.
-    pub(crate) fn has(&self, id: u32, pieces: [u32; 2]) -> bool {
+    pub(crate) fn has(&self, id: u32, pieces: [PieceIx; 2]) -> bool {
         self.cold(id).is_some() && self.contacts[id as usize].pieces == pieces
     }
 
@@ -95,7 +95,7 @@ impl Graph {
     }
 
     /// Place of a contact in an order that memory does not change: by births of its bodies, then by pieces.
-    pub(crate) fn order(&self, bodies: &Bodies, id: u32) -> ([u64; 2], [u32; 2], u32) {
+    pub(crate) fn order(&self, bodies: &Bodies, id: u32) -> ([u64; 2], [PieceIx; 2], u32) {
         let contact = &self.contacts[id as usize];
         let birth = |slot: BodyIx| bodies.records[slot].birth;
         (contact.bodies.map(birth), contact.pieces, id)

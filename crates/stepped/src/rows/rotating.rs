@@ -9,6 +9,7 @@ use carom_math::{Rot, Vec2, perp, vec2};
 use super::block::{Block, OPEN};
 use super::graph::Graph;
 use super::line::{Line, Quad};
+use crate::PieceIx;
 use crate::bodies::Bodies;
 
 /// Change of gap to second order within a tick from which on a row is rotated, as a part of the smaller extent. With 1e-3 the
@@ -24,7 +25,7 @@ pub(crate) struct RotatingRows {
 #[derive(Clone, Copy, Debug)]
 struct Row {
     contact: u32,
-    pieces: [u32; 2],
+    pieces: [PieceIx; 2],
     side: Side,
     seen: Seen,
 }
@@ -63,7 +64,7 @@ impl RotatingRows {
     pub(crate) fn add(
         &mut self,
         (block, lane): (&Block, usize),
-        (contact, pieces): (u32, [u32; 2]),
+        (contact, pieces): (u32, [PieceIx; 2]),
         (bodies, side): (&Bodies, Side),
         (tick, extent): (f64, f64),
     ) {

@@ -4,7 +4,7 @@ use carom_geometry::{Circle, ConvexPolygon};
 use carom_math::{Rot, Vec2, vec2};
 
 use super::{Random, floor, weightless};
-use crate::{BodyId, BodyInput, BodyKind, Engine, Mixed, PieceInput, Settings};
+use crate::{BodyId, BodyInput, BodyKind, Engine, Mixed, PieceInput, PieceIx, Settings};
 
 #[test]
 fn finds_the_pairs_that_asking_all_finds() {
@@ -146,7 +146,7 @@ fn what_is_beside_a_plank_stays_off_it() {
         let Settings { tick, margin, .. } = engine.settings;
         let boxes = &engine.pieces.boxes;
         overlapping += u32::from(boxes[0].overlaps(boxes[1]));
-        if !engine.pieces.are_beside(0, 1, tick) {
+        if !engine.pieces.are_beside(PieceIx(0), PieceIx(1), tick) {
             continue;
         }
         beside += u32::from(boxes[0].overlaps(boxes[1]));

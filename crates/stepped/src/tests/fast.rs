@@ -202,7 +202,7 @@ fn what_was_stopped_overlaps_as_its_shape_does() {
             let depths = engine.graph.ids().filter_map(|id| {
                 let pair = engine.graph.contacts[id as usize].pieces;
                 let [a, b] = pair.map(|number| {
-                    let piece = &engine.pieces.list[number as usize];
+                    let piece = &engine.pieces.list[number];
                     (piece, engine.bodies.pose_of(piece.body))
                 });
                 collide_any(a, b, 0.0).map(|found| -found.gap())

@@ -3,10 +3,10 @@
 use carom_math::{Vec2, vec2};
 
 use super::Random;
-use crate::BodyIx;
 use crate::narrow::naive::{Going, collide};
 use crate::narrow::{Manifold, collide_any};
 use crate::pieces::Piece;
+use crate::{BodyIx, PieceIx};
 
 /// Both ends of a manifold, midway between the surfaces, as places relative to the centre of A, from its arms.
 fn places(found: &Manifold) -> [Vec2; 2] {
@@ -34,7 +34,7 @@ fn outlines_that_touch_agree_with_hulls() {
             pieces.pose(number, pose);
             pieces
         });
-        let [turned_a, turned_b] = posed.each_ref().map(|pieces| pieces.outline(0));
+        let [turned_a, turned_b] = posed.each_ref().map(|pieces| pieces.outline(PieceIx(0)));
         let going = Going {
             d: pose_b.position - pose_a.position,
             ..Going::default()
@@ -96,7 +96,7 @@ fn no_cut_is_touched() {
         let b = posed(&other, pose_b);
         for part in &parts {
             let a = posed(part, pose_a);
-            let (turned, other) = (a.outline(0), b.outline(0));
+            let (turned, other) = (a.outline(PieceIx(0)), b.outline(PieceIx(0)));
             let going = Going {
                 d: pose_b.position - pose_a.position,
                 ..Going::default()

@@ -268,7 +268,7 @@ fn what_is_parted_turns_no_faster_than_it_goes() {
                 let [a, b] = engine.graph.contacts[contact as usize]
                     .pieces
                     .map(|number| {
-                        let piece = &engine.pieces.list[number as usize];
+                        let piece = &engine.pieces.list[number];
                         (piece, engine.bodies.pose_of(piece.body))
                     });
                 let extent = a.0.extent.min(b.0.extent);

@@ -6,7 +6,7 @@ use carom_math::{Vec2, vec2};
 use super::{Random, levels};
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight, naive};
 use crate::rows::LANES;
-use crate::{Engine, PieceInput, Settings};
+use crate::{Engine, PieceInput, PieceIx, Settings};
 
 /// Bodies of all kinds of outlines close together, a tick old: away from their base poses.
 fn random_bodies(seed: u64, spread: f64) -> Engine {
@@ -34,20 +34,20 @@ fn letter_ring() -> [Vec2; 6] {
 }
 
 /// All pairs of pieces of two bodies.
-fn pairs(scene: &Scene<'_>) -> Vec<[u32; 2]> {
-    let owner = |piece: u32| scene.pieces.list[piece as usize].body;
+fn pairs(scene: &Scene<'_>) -> Vec<[PieceIx; 2]> {
+    let owner = |piece: PieceIx| scene.pieces.list[piece].body;
     let count = scene.pieces.list.len().try_into().unwrap();
-    let of = |b: u32| (0..b).map(move |a| [a, b]);
+    let of = |b: u32| (0..b).map(move |a| [a, b].map(PieceIx));
     let all = (0..count).flat_map(of);
     all.filter(|[a, b]| owner(*a) != owner(*b)).collect()
 }
 
-fn eight<'a>(scene: &Scene<'a>, pairs: &[[u32; 2]]) -> Eight<'a> {
+fn eight<'a>(scene: &Scene<'a>, pairs: &[[PieceIx; 2]]) -> Eight<'a> {
     let mut eight = Eight::new(scene.pieces, [[0; LANES]; 2]);
     for (lane, pair) in pairs.iter().enumerate() {
         assert!(eight.set_pieces(scene.pieces, lane, *pair));
-        let body = |piece: u32| scene.pieces.list[piece as usize].body;
-        let line = |piece: u32| scene.bodies.records[body(piece)].line;
+        let body = |piece: PieceIx| scene.pieces.list[piece].body;
+        let line = |piece: PieceIx| scene.bodies.records[body(piece)].line;
         (eight.lines[0][lane], eight.lines[1][lane]) = (line(pair[0]), line(pair[1]));
         eight.least[lane] = scene.seen(pair.map(line));
     }
