@@ -5,7 +5,7 @@ use carom_math::{Pose, Vec2};
 use crate::bodies::{Bodies, number};
 use crate::error::{finite, finite_pose};
 use crate::rows::{Law, Quad};
-use crate::{BodyId, BodyKind, Engine, EngineError, PairRules, Settings, Sleep, Softness};
+use crate::{BodyId, BodyKind, Engine, EngineError, Entry, PairRules, Settings, Sleep, Softness};
 
 /// Numbers of a pose, as errors name them.
 const POSE: [&str; 4] = [
@@ -40,7 +40,7 @@ impl Engine {
             let change = Quad::new(velocity - v, spin - w);
             start.add(&change);
             line.set_velocity(velocity, spin);
-            if record.contacts == Bodies::NONE {
+            if record.contacts == Entry::NONE {
                 // Free flight has no leftovers of rounding.
                 start.0[..3].copy_from_slice(&[velocity.x, velocity.y, spin]);
             }
@@ -192,7 +192,7 @@ impl Engine {
         self.bodies.get(id)?;
         let contacts: Vec<_> = self.graph.of_body(&self.bodies, id.slot).collect();
         for (contact, _) in contacts {
-            let pieces = self.graph.contacts[contact as usize].pieces;
+            let pieces = self.graph.contacts[contact].pieces;
             match self.pieces.surface(pieces, rules) {
                 Some(surface) => self.graph.resurface(contact, surface),
                 None => self.part(contact),

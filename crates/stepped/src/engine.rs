@@ -19,7 +19,7 @@ use crate::rows::{
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
 use crate::whole::PutPairs;
-use crate::{BodyIx, EngineError, Mixed, PairRules, Settings};
+use crate::{BodyIx, ContactIx, EngineError, Mixed, PairRules, Settings};
 
 /// Bodies in contact, moved one sub-step after the other.
 ///
@@ -36,7 +36,7 @@ pub struct Engine {
     pub(crate) known: Pairs,
     pub(crate) graph: Graph,
     /// Contacts that parted in this tick.
-    parted: Vec<u32>,
+    parted: Vec<ContactIx>,
     pub(crate) islands: Islands,
     /// Points that bounce in this sub-step.
     arrived: Vec<Arrival>,
@@ -370,8 +370,8 @@ impl Engine {
     }
 
     /// Takes a contact out.
-    pub(crate) fn part(&mut self, id: u32) {
-        let pieces = self.graph.contacts[id as usize].pieces;
+    pub(crate) fn part(&mut self, id: ContactIx) {
+        let pieces = self.graph.contacts[id].pieces;
         if self.graph.is_touching(id) {
             self.ended.push(self.pieces.tags(pieces));
         }

@@ -15,7 +15,7 @@ use crate::narrow::Manifold;
 use crate::outline::Outline;
 use crate::pieces::Pieces;
 use crate::rows::Graph;
-use crate::{BodyIx, PieceIx};
+use crate::{BodyIx, ContactIx, PieceIx};
 
 /// Pieces are flush within this part of the smaller extent. Smaller than rounding far out hides nothing; larger hides steps.
 const FLUSH: f64 = 1e-4;
@@ -43,7 +43,7 @@ pub(crate) struct Suspects {
 struct Short {
     /// Line of the body.
     body: u32,
-    contact: u32,
+    contact: ContactIx,
     /// Line of the other body, if only a seam makes its piece flush.
     seam_of: Option<u32>,
 }
@@ -65,7 +65,7 @@ impl Suspects {
         (bodies, pieces): (&Bodies, &Pieces),
         [a, b]: [u32; 2],
         pair: [PieceIx; 2],
-        contact: u32,
+        contact: ContactIx,
     ) {
         for (body, other, piece) in [(a, b, pair[1]), (b, a, pair[0])] {
             if bodies.moved[body as usize] && has_sides(pieces.outline(piece)) {
@@ -89,10 +89,11 @@ impl Suspects {
     }
 
     /// Lines of bodies, in order, with their contacts that may be ghosts.
-    fn contacts(&self) -> Vec<(u32, u32)> {
+    fn contacts(&self) -> Vec<(u32, ContactIx)> {
         let seams = |short: &&Short| short.seam_of.is_none_or(|line| self.seamed[line as usize]);
         let asked = self.short.iter().filter(seams);
-        let mut asked: Vec<(u32, u32)> = asked.map(|short| (short.body, short.contact)).collect();
+        let mut asked: Vec<(u32, ContactIx)> =
+            asked.map(|short| (short.body, short.contact)).collect();
         asked.sort_unstable();
         asked
     }
@@ -108,7 +109,7 @@ struct Row {
     flush: f64,
     slope: f64,
     piece: PieceIx,
-    contact: u32,
+    contact: ContactIx,
     /// Whether the piece stands, or is driven, and the body's own has sides: a disc meets no tip before it meets the sides.
     is_tip: bool,
 }
@@ -241,8 +242,13 @@ const fn has_sides(piece: &Outline) -> bool {
 
 impl Row {
     /// A contact of the body of a slot.
-    fn of(graph: &Graph, (bodies, pieces): (&Bodies, &Pieces), contact: u32, slot: BodyIx) -> Self {
-        let pair = graph.contacts[contact as usize].pieces;
+    fn of(
+        graph: &Graph,
+        (bodies, pieces): (&Bodies, &Pieces),
+        contact: ContactIx,
+        slot: BodyIx,
+    ) -> Self {
+        let pair = graph.contacts[contact].pieces;
         let (block, _, lane) = graph.lane(contact);
         let (side, sign) = if pieces.owners[pair[0]].body == slot {
             (1, -1.0)
@@ -274,7 +280,7 @@ impl Row {
 
     /// The contact with one side of the piece, at the nearest corner of the body's own.
     fn on_side(&self, graph: &Graph, pieces: &Pieces, side: usize) -> Manifold {
-        let [a, b] = graph.contacts[self.contact as usize].pieces;
+        let [a, b] = graph.contacts[self.contact].pieces;
         let own = pieces.outline(if a == self.piece { b } else { a });
         let piece = pieces.outline(self.piece);
         let out = piece.normal(side);

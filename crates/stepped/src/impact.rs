@@ -11,7 +11,7 @@ use carom_math::{Vec2, perp};
 use crate::bodies::{Bodies, number};
 use crate::pieces::Pieces;
 use crate::rows::{Arrival, Block, Colour, Graph, Law, REST, lanes};
-use crate::{BodyId, BodyIx, Engine, PieceIx};
+use crate::{BodyId, BodyIx, ContactIx, Engine, PieceIx};
 
 /// A run goes on for so many sub-steps at most: what is pressed on for longer lies there.
 const LONGEST: u32 = 16;
@@ -41,7 +41,7 @@ pub struct Impact {
 #[derive(Clone, Copy, Debug)]
 struct Run {
     /// Number of the contact, and its bodies and pieces: numbers are given anew.
-    contact: u32,
+    contact: ContactIx,
     slots: [BodyIx; 2],
     pieces: [PieceIx; 2],
     speed: f64,
@@ -65,7 +65,7 @@ pub(crate) struct Impacts {
     of_contact: Vec<u32>,
     ended: Vec<Impact>,
     /// Scratch.
-    new: Vec<u32>,
+    new: Vec<ContactIx>,
 }
 
 impl Impacts {
@@ -100,7 +100,7 @@ impl Impacts {
         self.new = new;
     }
 
-    fn meet(&mut self, id: u32, [speed, met]: [f64; 2], graph: &Graph) {
+    fn meet(&mut self, id: ContactIx, [speed, met]: [f64; 2], graph: &Graph) {
         if let Some(run) = self.run_of(id, graph) {
             // Its other point, or both ways found it.
             run.speed = run.speed.max(speed);
@@ -108,7 +108,7 @@ impl Impacts {
                 run.met = run.met.min(met);
             }
         } else {
-            let (at, contact) = (id as usize, graph.contacts[id as usize]);
+            let (at, contact) = (id.at(), graph.contacts[id]);
             if self.of_contact.len() <= at {
                 self.of_contact.resize(at + 1, 0);
             }
@@ -129,10 +129,10 @@ impl Impacts {
     }
 
     /// The run of a contact. Numbers are given anew, and may be those of contacts of other pieces.
-    fn run_of(&mut self, id: u32, graph: &Graph) -> Option<&mut Run> {
-        let at = *self.of_contact.get(id as usize)?;
+    fn run_of(&mut self, id: ContactIx, graph: &Graph) -> Option<&mut Run> {
+        let at = *self.of_contact.get(id.at())?;
         let run = self.runs.get_mut(at as usize);
-        let pieces = graph.contacts[id as usize].pieces;
+        let pieces = graph.contacts[id].pieces;
         run.filter(|run| run.contact == id && run.pieces == pieces)
     }
 
@@ -180,7 +180,7 @@ impl Impacts {
             };
             let goes_on = closes && run.age < LONGEST;
             if goes_on {
-                of_contact[run.contact as usize] = stay;
+                of_contact[run.contact.at()] = stay;
                 stay += 1;
             } else {
                 over.push(*run);
@@ -218,7 +218,7 @@ impl Impacts {
     pub(crate) fn forget(&mut self, slot: BodyIx) {
         self.runs.retain(|run| !run.slots.contains(&slot));
         for (run, k) in self.runs.iter().zip(0..) {
-            self.of_contact[run.contact as usize] = k;
+            self.of_contact[run.contact.at()] = k;
         }
         self.ended
             .retain(|impact| impact.bodies.iter().all(|body| body.slot != slot));
@@ -250,7 +250,7 @@ impl Run {
 }
 
 /// Adds numbers of contacts that push and did not when this was last asked.
-fn begins(colour: &mut Colour, new: &mut Vec<u32>) {
+fn begins(colour: &mut Colour, new: &mut Vec<ContactIx>) {
     for (now, cold) in colour.pushes.iter().zip(&mut colour.cold) {
         let begins = now & !cold.pushed;
         cold.pushed = *now;

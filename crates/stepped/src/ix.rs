@@ -9,6 +9,7 @@ use crate::bodies::number;
 use crate::outline::Outline;
 use crate::pieces::{Disc, Owner, Piece};
 use crate::record::Record;
+use crate::rows::Contact;
 
 /// Types of numbers, and what the lists hold that are read by them.
 macro_rules! numbers {
@@ -48,8 +49,27 @@ macro_rules! numbers {
 numbers! {
     /// A body: its slot, which is taken again once it is removed.
     BodyIx: Record;
+    /// A contact of two pieces.
+    ContactIx: Contact;
     /// A convex piece of a body.
     PieceIx: Piece, Owner, Outline, Aabb, Disc, u8;
+}
+
+/// A contact in the list of one of its bodies: its number × 2 + side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Entry(u32);
+
+impl Entry {
+    pub(crate) const NONE: Self = Self(u32::MAX);
+
+    pub(crate) const fn of(contact: ContactIx, side: usize) -> Self {
+        Self(contact.0 << 1 | (side == 1) as u32)
+    }
+
+    /// Contact and side; `None` at the end of a list.
+    pub(crate) fn end(self) -> Option<(ContactIx, usize)> {
+        (self != Self::NONE).then_some((ContactIx(self.0 >> 1), (self.0 & 1) as usize))
+    }
 }
 
 impl PieceIx {

@@ -5,7 +5,7 @@
 
 use carom_math::{Vec2, cross, cross_scalar, perp};
 
-use crate::Engine;
+use crate::{ContactIx, Engine};
 
 /// A body as the twin sees it.
 #[derive(Clone, Copy)]
@@ -22,7 +22,7 @@ struct Body {
 
 /// A contact: normal, and for each point its arms, gap at the base poses and impulse.
 struct Row {
-    id: u32,
+    id: ContactIx,
     ends: [usize; 2],
     normal: Vec2,
     points: Vec<([Vec2; 2], f64, f64)>,
@@ -41,7 +41,7 @@ pub(crate) struct State {
 /// What a tick came to.
 pub(crate) struct After {
     pub(crate) velocities: Vec<(Vec2, f64)>,
-    pub(crate) impulses: Vec<(u32, [f64; 3])>,
+    pub(crate) impulses: Vec<(ContactIx, [f64; 3])>,
 }
 
 impl State {
@@ -136,7 +136,7 @@ impl Law {
 
 impl Row {
     /// Points in space from arms and gaps of the engine's block.
-    fn of(engine: &Engine, id: u32) -> Self {
+    fn of(engine: &Engine, id: ContactIx) -> Self {
         let (block, _, lane) = engine.graph.lane(id);
         let n = Vec2::new(block.nx[lane], block.ny[lane]);
         // r · n = a_t, r × n = a: so r = n a_t − t a.

@@ -4,7 +4,7 @@ use carom_geometry::Aabb;
 use carom_math::{Pose, Vec2};
 
 use crate::bodies::Bodies;
-use crate::{BodyId, BodyIx, BodyKind, Engine, EngineError, PieceIx, Settings};
+use crate::{BodyId, BodyIx, BodyKind, ContactIx, Engine, EngineError, Entry, PieceIx, Settings};
 
 /// A body as the last sub-step left it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,7 +124,7 @@ impl Engine {
         let bodies = &self.bodies;
         let contacts = |at: usize| bodies.records[bodies.slot_of[at]].contacts;
         (2..bodies.lines.len())
-            .filter(move |at| contacts(*at) == Bodies::NONE)
+            .filter(move |at| contacts(*at) == Entry::NONE)
             .map(|at| self.state_at(at))
     }
 
@@ -281,7 +281,7 @@ impl Engine {
         if own == still {
             return Ok(0.0);
         }
-        let of_contact = |(id, side): (u32, usize)| {
+        let of_contact = |(id, side): (ContactIx, usize)| {
             let (block, _, lane) = self.graph.lane(id);
             let [a, b] = if side == 0 {
                 [own, still]
@@ -316,8 +316,8 @@ impl Engine {
         (kinetic, potential)
     }
 
-    fn contact(&self, id: u32) -> Contact {
-        let contact = &self.graph.contacts[id as usize];
+    fn contact(&self, id: ContactIx) -> Contact {
+        let contact = &self.graph.contacts[id];
         let (block, _, lane) = self.graph.lane(id);
         let [j1, j2, friction] = block.impulses(lane);
         Contact {

@@ -5,7 +5,7 @@ use carom_math::{Pose, trig};
 use crate::bodies::Bodies;
 use crate::input::BodyKind;
 use crate::rows::{Line, Quad};
-use crate::{BodyIx, PieceIx};
+use crate::{BodyIx, Entry, PieceIx};
 
 /// What is kept of a body, awake or not.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ pub(crate) struct Record {
     /// Which update of contacts was the next when it was put where it is or was: see [`Bodies::updates`].
     pub(crate) placed: u64,
     /// Head of the list of its contacts.
-    pub(crate) contacts: u32,
+    pub(crate) contacts: Entry,
     /// A bit for each colour that has a contact of it.
     pub(crate) colours: u64,
     /// Where a fixed body is; others have theirs by line.
@@ -144,7 +144,7 @@ impl Record {
         count: 0,
         birth: 0,
         placed: 0,
-        contacts: u32::MAX,
+        contacts: Entry::NONE,
         colours: 0,
         pose: Pose::IDENTITY,
         turned: 0.0,

@@ -9,7 +9,7 @@ use carom_math::Vec2;
 use crate::bodies::{Bodies, Sleeper, number};
 use crate::groups::reached;
 use crate::update::nearness;
-use crate::{BodyId, BodyIx, BodyKind, Engine, EngineError};
+use crate::{BodyId, BodyIx, BodyKind, ContactIx, Engine, EngineError};
 
 /// Ticks between two searches for islands at rest. Fewer: an island that rests but for one body is walked for nothing;
 /// more: islands fall asleep later by as much.
@@ -109,7 +109,7 @@ impl Engine {
             rests &= self.bodies.rest[self.bodies.line_of(slot)] >= after;
             supported |= self.rests_unsupported(slot);
             for (id, side) in self.graph.of_body(&self.bodies, slot) {
-                let other = self.graph.contacts[id as usize].bodies[1 - side];
+                let other = self.graph.contacts[id].bodies[1 - side];
                 if !self.hold_together(id) {
                     continue;
                 }
@@ -133,7 +133,7 @@ impl Engine {
     }
 
     /// Whether the bodies of a contact hang together: it pushes or overlaps.
-    fn hold_together(&self, id: u32) -> bool {
+    fn hold_together(&self, id: ContactIx) -> bool {
         let (block, _, lane) = self.graph.lane(id);
         let gaps = block.gaps(lane, &self.bodies.lines);
         block.j1[lane] + block.j2[lane] > 0.0 || gaps[0].min(gaps[1]) <= 0.0
@@ -157,7 +157,7 @@ impl Engine {
         for &slot in island {
             let ids: Vec<_> = self.graph.of_body(&self.bodies, slot).collect();
             for (id, side) in ids {
-                let contact = self.graph.contacts[id as usize];
+                let contact = self.graph.contacts[id];
                 let other = &self.bodies.records[contact.bodies[1 - side]];
                 if other.kind == BodyKind::Dynamic && other.island != number {
                     // Near, and no part of the island: found again when one of both moves, or wakes.
@@ -218,7 +218,7 @@ impl Engine {
         for sleeper in sleepers {
             let ids: Vec<_> = self.graph.of_body(&self.bodies, sleeper.slot).collect();
             for (id, _) in ids {
-                if self.graph.contacts[id as usize].sleeps() {
+                if self.graph.contacts[id].sleeps() {
                     self.graph.shift(&mut self.bodies, id, false);
                 }
             }
@@ -280,7 +280,7 @@ impl Engine {
     pub(crate) fn wake_around(&mut self, slot: BodyIx) {
         let mut islands = vec![self.bodies.records[slot].island];
         for (id, side) in self.graph.of_body(&self.bodies, slot) {
-            let contact = &self.graph.contacts[id as usize];
+            let contact = &self.graph.contacts[id];
             if contact.sleeps() {
                 islands.push(self.bodies.records[contact.bodies[1 - side]].island);
             }

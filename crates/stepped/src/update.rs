@@ -14,7 +14,7 @@ use crate::rows::{
     lanes, renew,
 };
 use crate::whole::PutPairs;
-use crate::{BodyIx, PairRules, PieceIx, Settings};
+use crate::{BodyIx, ContactIx, PairRules, PieceIx, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
@@ -30,7 +30,7 @@ pub(crate) fn update(
     bodies: &mut Bodies,
     pieces: &Pieces,
     settings: &Settings,
-    parted: &mut Vec<u32>,
+    parted: &mut Vec<ContactIx>,
 ) -> f64 {
     rotating.retain(graph, &bodies.moved);
     let touched = graph.touched(bodies);

@@ -5,7 +5,7 @@
 
 use crate::bodies::Bodies;
 use crate::rows::Graph;
-use crate::{BodyIx, PieceIx, Settings};
+use crate::{BodyIx, ContactIx, PieceIx, Settings};
 
 /// Which islands a rule admits: by points of contact, as matrices are dense, and by bodies.
 #[derive(Clone, Copy)]
@@ -52,8 +52,8 @@ const ALONG: f64 = 1e-3;
 /// A contact, as long as its bodies are there: births and pieces of both. Numbers of contacts are given anew.
 pub(super) type Key = ([u64; 2], [PieceIx; 2]);
 
-pub(super) fn keys(graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Vec<Key> {
-    let key = |id: &u32| {
+pub(super) fn keys(graph: &Graph, bodies: &Bodies, ids: &[ContactIx]) -> Vec<Key> {
+    let key = |id: &ContactIx| {
         let (births, pieces, _) = graph.order(bodies, *id);
         (births, pieces)
     };
@@ -64,7 +64,7 @@ pub(super) fn keys(graph: &Graph, bodies: &Bodies, ids: &[u32]) -> Vec<Key> {
 #[derive(Clone, Debug)]
 pub(super) struct Found {
     /// In the order of their bodies.
-    pub(super) contacts: Vec<u32>,
+    pub(super) contacts: Vec<ContactIx>,
     /// It is swept: it bears no load that sweeps cannot carry.
     pub(super) is_swept: bool,
 }
@@ -86,7 +86,7 @@ pub(super) struct Search {
     known: Vec<Known>,
     /// Bodies and contacts of a component.
     slots: Vec<BodyIx>,
-    contacts: Vec<u32>,
+    contacts: Vec<ContactIx>,
 }
 
 /// The islands that take hard rows in a sub-step, in the order of their bodies.
@@ -100,7 +100,7 @@ pub(super) fn find(
     search.known.clear();
     for id in graph.unequal_awake(bodies) {
         search.known.resize(bodies.records.len(), Known::Nothing);
-        let first = graph.contacts[id as usize].bodies[0];
+        let first = graph.contacts[id].bodies[0];
         if search.known[first.at()] == Known::Nothing
             && search.component(graph, bodies, first, UNDER_LOAD)
             && search
@@ -187,7 +187,7 @@ impl Search {
         self.known.clear();
         self.known.resize(bodies.records.len(), Known::Nothing);
         let contacts = found.iter().flat_map(|island| &island.contacts);
-        for slot in contacts.flat_map(|id| graph.contacts[*id as usize].bodies) {
+        for slot in contacts.flat_map(|id| graph.contacts[*id].bodies) {
             self.known[slot.at()] = Known::Asked;
         }
     }
@@ -210,7 +210,7 @@ impl Search {
             next += 1;
             discs &= bodies.is_disc(slot);
             for (id, side) in graph.of_body(bodies, slot) {
-                let contact = &graph.contacts[id as usize];
+                let contact = &graph.contacts[id];
                 let other = contact.bodies[1 - side];
                 let moves = bodies.is_dynamic(other);
                 // Once for both of its bodies.
@@ -246,8 +246,8 @@ impl Search {
 
 /// Whether a contact is one of a heavy body with a light one that bears it: pressed along the normal the light one leans on what
 /// leads, without the heavy one, to a body that cannot be moved.
-fn is_borne(graph: &Graph, bodies: &Bodies, id: u32) -> bool {
-    let ends = graph.contacts[id as usize].bodies;
+fn is_borne(graph: &Graph, bodies: &Bodies, id: ContactIx) -> bool {
+    let ends = graph.contacts[id].bodies;
     if !Graph::is_unequal(bodies, ends) {
         return false;
     }
@@ -255,14 +255,14 @@ fn is_borne(graph: &Graph, bodies: &Bodies, id: u32) -> bool {
     let side = usize::from(mass(ends[1]) < mass(ends[0]));
     let (light, heavy) = (ends[side], ends[1 - side]);
     // Normals away from the body on `side`.
-    let away = |id: u32, side: usize| {
+    let away = |id: ContactIx, side: usize| {
         let (block, _, lane) = graph.lane(id);
         block.normal(lane) * if side == 0 { 1.0 } else { -1.0 }
     };
     let load = -away(id, side);
     let mut leans = vec![light];
     for (id, side) in graph.of_body(bodies, light) {
-        let other = graph.contacts[id as usize].bodies[1 - side];
+        let other = graph.contacts[id].bodies[1 - side];
         if other != heavy && away(id, side).dot(load) > ALONG {
             leans.push(other);
         }

@@ -14,9 +14,9 @@ mod islands;
 mod part;
 mod solve;
 
-use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::{FreePairs, Graph, Law, OPEN};
+use crate::{ContactIx, Settings};
 use islands::{Found, Key, Search};
 use solve::Island;
 
@@ -54,9 +54,9 @@ impl HardRows {
             });
         }
         if graph.has_hard() {
-            let mut hard: Vec<u32> = contacts_of(&found).collect();
+            let mut hard: Vec<ContactIx> = contacts_of(&found).collect();
             hard.sort_unstable();
-            let mut back: Vec<u32> = graph.hard_ids().collect();
+            let mut back: Vec<ContactIx> = graph.hard_ids().collect();
             back.retain(|id| hard.binary_search(id).is_err());
             graph.sort(bodies, &mut back);
             for id in back {
@@ -128,6 +128,6 @@ impl HardRows {
     }
 }
 
-fn contacts_of(islands: &[Found]) -> impl Iterator<Item = u32> {
+fn contacts_of(islands: &[Found]) -> impl Iterator<Item = ContactIx> {
     islands.iter().flat_map(|island| &island.contacts).copied()
 }

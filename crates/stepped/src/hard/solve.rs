@@ -5,6 +5,7 @@ use carom_math::{Vec2, perp};
 
 use super::conditions::{answers, centre, justified, rest};
 use super::islands::Found;
+use crate::ContactIx;
 use crate::bodies::Bodies;
 use crate::rows::{Graph, Law, OPEN, Quad};
 
@@ -18,7 +19,7 @@ const LIMITS: usize = 4;
 /// A contact of the island.
 #[derive(Clone, Debug)]
 pub(super) struct HardContact {
-    pub(super) id: u32,
+    pub(super) id: ContactIx,
     pub(super) belt: f64,
     /// Places of its bodies in the island.
     pub(super) ends: [usize; 2],

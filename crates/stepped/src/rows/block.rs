@@ -3,9 +3,9 @@
 use carom_math::{Vec2, perp};
 
 use super::line::{Line, Quad};
-use crate::PieceIx;
 use crate::bodies::Bodies;
 use crate::narrow::Manifold;
+use crate::{ContactIx, PieceIx};
 
 /// Contacts in a block.
 pub(crate) const LANES: usize = 8;
@@ -79,7 +79,7 @@ pub(crate) struct Block {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cold {
     /// Numbers of the contacts.
-    pub(crate) contact: [u32; LANES],
+    pub(crate) contact: [ContactIx; LANES],
     pub(crate) pieces: [[PieceIx; 2]; LANES],
     /// Coefficients of restitution.
     pub(crate) restitution: [f64; LANES],
@@ -254,7 +254,7 @@ impl Block {
 
 impl Cold {
     pub(crate) const EMPTY: Self = Self {
-        contact: [u32::MAX; LANES],
+        contact: [ContactIx::NONE; LANES],
         pieces: [[PieceIx::NONE; 2]; LANES],
         restitution: [0.0; LANES],
         belt: [0.0; LANES],

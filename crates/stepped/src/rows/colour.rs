@@ -1,7 +1,7 @@
 //! The blocks of one colour, and which lanes are in use.
 
 use super::block::{Block, Cold, LANES};
-use crate::PieceIx;
+use crate::{ContactIx, PieceIx};
 
 /// The blocks of one colour; a block and its cold part have the same number.
 #[derive(Clone, Debug, Default)]
@@ -42,7 +42,7 @@ impl Colour {
     }
 
     /// Gives the next lane to a contact, or a block of its own.
-    pub(super) fn push(&mut self, alone: bool, id: u32, pieces: [PieceIx; 2]) -> usize {
+    pub(super) fn push(&mut self, alone: bool, id: ContactIx, pieces: [PieceIx; 2]) -> usize {
         let index = if alone {
             self.blocks.len() * LANES
         } else {
@@ -102,7 +102,7 @@ impl Colour {
     }
 
     /// Takes empty blocks out and tells of each contact that moved, with its new block; the order stays.
-    pub(super) fn close_up(&mut self, mut moved: impl FnMut(u32, usize)) {
+    pub(super) fn close_up(&mut self, mut moved: impl FnMut(ContactIx, usize)) {
         let mut count = 0;
         for k in 0..self.blocks.len() {
             if self.cold[k].used == 0 {
@@ -122,7 +122,7 @@ impl Colour {
     }
 
     /// Fills a hole with the last lane; which contact moved.
-    pub(super) fn pull(&mut self, k: usize, lane: usize) -> Option<u32> {
+    pub(super) fn pull(&mut self, k: usize, lane: usize) -> Option<ContactIx> {
         self.len -= 1;
         self.discount(k, lane);
         let (last, from) = (self.len / LANES, self.len % LANES);
@@ -151,18 +151,21 @@ mod tests {
     fn blocks_of_one_contact_keep_their_order_and_are_moved_few_times() {
         let mut colour = Colour::default();
         let count = 4000;
-        for id in 0..count {
-            let _index = colour.push(true, id, [PieceIx(id); 2]);
+        for id in (0..count).map(ContactIx) {
+            let _index = colour.push(true, id, [PieceIx(0); 2]);
         }
         let mut place: Vec<usize> = (0..count as usize).collect();
-        let (mut left, mut moves) = ((0..count).collect::<Vec<u32>>(), 0);
+        let (mut left, mut moves) = ((0..count).map(ContactIx).collect::<Vec<_>>(), 0);
         // Every other one goes, then all but the last ten.
-        let order = (0..count).step_by(2).chain((1..count - 10).step_by(2));
+        let order = (0..count)
+            .step_by(2)
+            .chain((1..count - 10).step_by(2))
+            .map(ContactIx);
         for id in order {
             left.retain(|&other| other != id);
-            if colour.empty(place[id as usize]) {
+            if colour.empty(place[id.at()]) {
                 colour.close_up(|id, k| {
-                    place[id as usize] = k;
+                    place[id.at()] = k;
                     moves += 1;
                 });
             }
@@ -170,7 +173,7 @@ mod tests {
             assert!(seen.map(|cold| cold.contact[0]).eq(left.iter().copied()));
             assert!(
                 left.iter()
-                    .all(|&id| colour.cold[place[id as usize]].contact[0] == id)
+                    .all(|&id| colour.cold[place[id.at()]].contact[0] == id)
             );
         }
         assert_eq!(left.len(), 5);

@@ -9,14 +9,14 @@ use carom_math::Vec2;
 use super::free::FreePairs;
 use super::graph::Graph;
 use super::law::Law;
-use crate::BodyIx;
 use crate::bodies::Bodies;
+use crate::{BodyIx, ContactIx};
 
 /// Contacts that are too deep for the sweeps.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Deep {
     /// In the order of their bodies.
-    contacts: Vec<u32>,
+    contacts: Vec<ContactIx>,
     /// What parts them: scratch.
     moves: Vec<Move>,
     /// By line, what would displace a body, in m: zero but while bodies are displaced.
@@ -28,7 +28,7 @@ pub(crate) struct Deep {
 impl Deep {
     /// Displaces the bodies of what is parted; tells of the impulse of each contact. Where those of a body add up to more than `most`
     /// they become less, by one factor for both bodies of a contact, so that their common centre stays.
-    fn displace(&mut self, bodies: &mut Bodies, most: f64, mut tell: impl FnMut(u32, f64)) {
+    fn displace(&mut self, bodies: &mut Bodies, most: f64, mut tell: impl FnMut(ContactIx, f64)) {
         self.sums.resize(bodies.lines.len(), Vec2::ZERO);
         for moved in &self.moves {
             for (line, way) in moved.lines.into_iter().zip(moved.ways(bodies)) {
@@ -63,7 +63,7 @@ impl Deep {
     /// Slots of the bodies of each of them.
     pub(crate) fn pairs(&self, graph: &Graph) -> impl Iterator<Item = [BodyIx; 2]> {
         let deep = self.contacts.iter().filter(|id| graph.is_deep(**id));
-        deep.map(|id| graph.contacts[*id as usize].bodies)
+        deep.map(|id| graph.contacts[*id].bodies)
     }
 
     /// Displaces the bodies of all deep contacts.
@@ -99,7 +99,7 @@ impl Deep {
             };
             let (ma, mb) = (a.inverse_mass(), b.inverse_mass());
             // Hard rows part what is deep by themselves.
-            let soft = !graph.contacts[id as usize].is_hard();
+            let soft = !graph.contacts[id].is_hard();
             if soft && push > 0.0 && ma + mb > 0.0 {
                 self.moves.push(Move {
                     id,
@@ -126,7 +126,7 @@ impl Deep {
 /// A contact that is parted.
 #[derive(Clone, Copy, Debug)]
 struct Move {
-    id: u32,
+    id: ContactIx,
     lines: [u32; 2],
     normal: Vec2,
     /// Mass times displacement of either body, in kg m.

@@ -8,9 +8,9 @@ use super::graph::Graph;
 use super::kernel::Pass;
 use super::law::Law;
 use super::plain::row;
-use crate::BodyIx;
 use crate::bodies::{Bodies, BodyKind};
 use crate::groups::Groups;
+use crate::{BodyIx, ContactIx};
 
 /// Mass ratio above which rows get extra sweeps. A box of 20 times the mass comes back from a light one at 1.5 m/s of 4.4
 /// without them, and one of 10 times does so at 1.6 m/s.
@@ -37,7 +37,7 @@ const PART: f64 = 0.6;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ExtraSweeps {
     /// Contacts of each group, in the order of their bodies, and how often they are swept.
-    groups: Vec<(Vec<u32>, usize)>,
+    groups: Vec<(Vec<ContactIx>, usize)>,
     /// The first light body about each body, while groups are gathered: scratch.
     owner: Vec<u32>,
 }
@@ -70,7 +70,7 @@ impl ExtraSweeps {
         unequal.sort_unstable();
         unequal.dedup();
         unequal.retain(|id| {
-            let contact = &graph.contacts[*id as usize];
+            let contact = &graph.contacts[*id];
             contact.sleeps()
                 || graph.cold(*id).is_some() && Graph::is_unequal(bodies, contact.bodies)
         });
@@ -79,7 +79,7 @@ impl ExtraSweeps {
         // Light bodies, and the greatest ratio that each has to bear.
         let mut light: Vec<(BodyIx, f64)> = Vec::new();
         for &id in &graph.unequal {
-            let contact = &graph.contacts[id as usize];
+            let contact = &graph.contacts[id];
             if contact.sleeps() || contact.is_hard() {
                 continue;
             }
@@ -106,7 +106,7 @@ impl ExtraSweeps {
         self.owner.clear();
         let mut gathered = std::collections::BTreeMap::new();
         for (k, (slot, ratio)) in light.iter().enumerate() {
-            let group: &mut (Vec<u32>, f64) =
+            let group: &mut (Vec<ContactIx>, f64) =
                 gathered.entry(groups.find(k)).or_insert((Vec::new(), 1.0));
             group
                 .0
@@ -137,7 +137,7 @@ impl ExtraSweeps {
                         continue;
                     };
                     let belt = cold.belt[lane];
-                    let contact = &graph.contacts[*id as usize];
+                    let contact = &graph.contacts[*id];
                     debug_assert!(!contact.is_hard(), "a hard row is swept");
                     let (block, lane) = graph.block_mut(*id);
                     let [j1, j2, jt] = block.impulses(lane);

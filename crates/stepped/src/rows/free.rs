@@ -14,6 +14,7 @@ use carom_math::perp;
 use super::block::LANES;
 use super::graph::Graph;
 use super::turn_back::{Turn, turn_all};
+use crate::ContactIx;
 use crate::bodies::Bodies;
 
 /// The contacts of free pairs in a sub-step.
@@ -77,14 +78,14 @@ impl FreePairs {
     }
 
     /// A contact displaced its bodies, besides, as by an impulse along the normal, in N·s.
-    pub(crate) fn add(&mut self, graph: &Graph, id: u32, impulse: f64) {
+    pub(crate) fn add(&mut self, graph: &Graph, id: ContactIx, impulse: f64) {
         if let Some(known) = self.find(graph, id) {
             self.rows[known].along += impulse;
         }
     }
 
     /// The same along the normal and across once velocities have been found: see [`Self::turn_back_late`].
-    pub(crate) fn add_late(&mut self, graph: &Graph, id: u32, (along, across): (f64, f64)) {
+    pub(crate) fn add_late(&mut self, graph: &Graph, id: ContactIx, (along, across): (f64, f64)) {
         if let Some(known) = self.find(graph, id) {
             self.rows[known].along += along;
             self.rows[known].across += across;
@@ -93,8 +94,8 @@ impl FreePairs {
     }
 
     /// The row of a contact, if its bodies are free.
-    fn find(&self, graph: &Graph, id: u32) -> Option<usize> {
-        let contact = &graph.contacts[id as usize];
+    fn find(&self, graph: &Graph, id: ContactIx) -> Option<usize> {
+        let contact = &graph.contacts[id];
         let (k, lane) = contact.place();
         let at = (contact.colour as usize, k, lane);
         self.rows.binary_search_by_key(&at, |row| row.at).ok()

@@ -6,7 +6,7 @@ use super::colour::Colour;
 use crate::bodies::{Bodies, BodyKind, number};
 use crate::ghost::Suspects;
 use crate::narrow::Manifold;
-use crate::{BodyIx, PieceIx, Surface};
+use crate::{BodyIx, ContactIx, Entry, PieceIx, Surface};
 
 /// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
 pub(crate) const COLOURS: usize = 64;
@@ -25,9 +25,6 @@ pub(crate) const ASLEEP: usize = HARD + COLOURS;
 /// boxes need 6 to 10 colours.
 const GROUND: u64 = 12;
 
-/// No contact.
-const END: u32 = u32::MAX;
-
 /// Where a contact is, and its place in the lists of its two bodies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact {
@@ -39,9 +36,9 @@ pub(crate) struct Contact {
     pub(super) home: u32,
     /// Lane, counted through all blocks of the colour.
     pub(crate) index: u32,
-    /// Contact × 2 + side of the neighbours in the lists of A and of B.
-    next: [u32; 2],
-    previous: [u32; 2],
+    /// The neighbours in the lists of A and of B.
+    next: [Entry; 2],
+    previous: [Entry; 2],
 }
 
 /// All contacts. Adding and removing moves one lane at most.
@@ -50,11 +47,11 @@ pub(crate) struct Graph {
     pub(crate) contacts: Vec<Contact>,
     /// Bodies that may have ghosts.
     pub(crate) suspects: Suspects,
-    free: Vec<u32>,
+    free: Vec<ContactIx>,
     /// Contacts that are too deep for the sweeps, and some that were, in no order.
-    pub(crate) deep: Vec<u32>,
+    pub(crate) deep: Vec<ContactIx>,
     /// Contacts of two bodies of very different mass, and some that were, in no order.
-    pub(super) unequal: Vec<u32>,
+    pub(super) unequal: Vec<ContactIx>,
     /// Behind those of masks the overflow colour, then those of hard rows, and last what sleeps.
     pub(super) colours: Vec<Colour>,
     /// Contacts in hard rows.
@@ -145,30 +142,32 @@ impl Graph {
         pieces: [PieceIx; 2],
         (manifold, deepest, (by, is_whole)): (&Manifold, f64, (Pressed, bool)),
         surface: Surface,
-    ) -> u32 {
-        let id = self.free.pop().unwrap_or(number(self.contacts.len()));
+    ) -> ContactIx {
+        let id = self
+            .free
+            .pop()
+            .unwrap_or(ContactIx::new(self.contacts.len()));
         let mut contact = Contact {
             bodies: ends,
             pieces,
             colour: 0,
             home: 0,
             index: 0,
-            next: [END; 2],
-            previous: [END; 2],
+            next: [Entry::NONE; 2],
+            previous: [Entry::NONE; 2],
         };
         for side in [0, 1] {
             let head = &mut bodies.records[ends[side]].contacts;
             contact.next[side] = *head;
-            if *head != END {
-                let (other, its) = (*head >> 1, *head & 1);
-                self.contacts[other as usize].previous[its as usize] = entry(id, side);
+            if let Some((other, its)) = head.end() {
+                self.contacts[other].previous[its] = Entry::of(id, side);
             }
-            *head = entry(id, side);
+            *head = Entry::of(id, side);
         }
-        if id as usize == self.contacts.len() {
+        if id.at() == self.contacts.len() {
             self.contacts.push(contact);
         } else {
-            self.contacts[id as usize] = contact;
+            self.contacts[id] = contact;
         }
         self.colour(bodies, id, (manifold, deepest, (by, is_whole)), surface);
         if Self::is_unequal(bodies, ends) {
@@ -181,11 +180,11 @@ impl Graph {
     fn colour(
         &mut self,
         bodies: &mut Bodies,
-        id: u32,
+        id: ContactIx,
         (manifold, deepest, (by, is_whole)): (&Manifold, f64, (Pressed, bool)),
         surface: Surface,
     ) {
-        let contact = &mut self.contacts[id as usize];
+        let contact = &mut self.contacts[id];
         let ends = contact.bodies;
         let dynamic = ends.map(|slot| bodies.is_dynamic(slot));
         let mut taken = 0;
@@ -223,8 +222,8 @@ impl Graph {
     }
 
     /// Takes a contact out, and its impulses out of the warm start of its bodies.
-    pub(crate) fn remove(&mut self, bodies: &mut Bodies, id: u32) {
-        let contact = self.contacts[id as usize];
+    pub(crate) fn remove(&mut self, bodies: &mut Bodies, id: ContactIx) {
+        let contact = self.contacts[id];
         let (colour, (k, lane)) = (contact.colour as usize, contact.place());
         let block = &self.colours[colour].blocks[k];
         let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
@@ -234,7 +233,7 @@ impl Graph {
             let record = &mut bodies.records[slot];
             if record.kind == BodyKind::Dynamic {
                 record.colours &= !contact.mask();
-                if record.contacts == END {
+                if record.contacts == Entry::NONE {
                     // Nothing acts on it: free flight has no leftovers of rounding.
                     let (v, w) = (bodies.lines[line].v(), bodies.lines[line].w());
                     bodies.start[line].0[..3].copy_from_slice(&[v.x, v.y, w]);
@@ -254,28 +253,27 @@ impl Graph {
                 self.close_up();
             }
         } else if let Some(moved) = self.colours[colour].pull(k, lane) {
-            self.contacts[moved as usize].index = number(k * LANES + lane);
+            self.contacts[moved].index = number(k * LANES + lane);
         }
     }
 
     /// Takes blocks without a contact out of the overflow colour; the others keep their order.
     fn close_up(&mut self) {
         let contacts = &mut self.contacts;
-        self.colours[COLOURS].close_up(|id, k| contacts[id as usize].index = number(k * LANES));
+        self.colours[COLOURS].close_up(|id, k| contacts[id].index = number(k * LANES));
     }
 
     /// Takes a contact out of the lists of its bodies.
-    fn unlink(&mut self, bodies: &mut Bodies, id: u32) {
-        let contact = self.contacts[id as usize];
+    fn unlink(&mut self, bodies: &mut Bodies, id: ContactIx) {
+        let contact = self.contacts[id];
         for side in [0, 1] {
             let (next, previous) = (contact.next[side], contact.previous[side]);
-            if previous == END {
-                bodies.records[contact.bodies[side]].contacts = next;
-            } else {
-                self.contacts[(previous >> 1) as usize].next[(previous & 1) as usize] = next;
+            match previous.end() {
+                Some((other, its)) => self.contacts[other].next[its] = next,
+                None => bodies.records[contact.bodies[side]].contacts = next,
             }
-            if next != END {
-                self.contacts[(next >> 1) as usize].previous[(next & 1) as usize] = previous;
+            if let Some((other, its)) = next.end() {
+                self.contacts[other].previous[its] = previous;
             }
         }
     }
@@ -285,14 +283,11 @@ impl Graph {
         &self,
         bodies: &Bodies,
         slot: BodyIx,
-    ) -> impl Iterator<Item = (u32, usize)> {
+    ) -> impl Iterator<Item = (ContactIx, usize)> {
         let mut at = bodies.records[slot].contacts;
         core::iter::from_fn(move || {
-            if at == END {
-                return None;
-            }
-            let (id, side) = (at >> 1, (at & 1) as usize);
-            at = self.contacts[id as usize].next[side];
+            let (id, side) = at.end()?;
+            at = self.contacts[id].next[side];
             Some((id, side))
         })
     }
@@ -300,16 +295,15 @@ impl Graph {
     /// The other bodies of its contacts, in their order: once for each.
     pub(crate) fn neighbours(&self, bodies: &Bodies, slot: BodyIx) -> impl Iterator<Item = BodyIx> {
         let contacts = self.of_body(bodies, slot);
-        contacts.map(|(id, side)| self.contacts[id as usize].bodies[1 - side])
+        contacts.map(|(id, side)| self.contacts[id].bodies[1 - side])
     }
 
     /// Tells the rows of a body that it has another line.
     pub(crate) fn renumber(&mut self, bodies: &Bodies, slot: BodyIx) {
         let line = bodies.records[slot].line;
         let mut at = bodies.records[slot].contacts;
-        while at != END {
-            let (id, side) = (at >> 1, (at & 1) as usize);
-            let contact = self.contacts[id as usize];
+        while let Some((id, side)) = at.end() {
+            let contact = self.contacts[id];
             let (block, lane) = self.block_mut(id);
             let end = if side == 0 {
                 &mut block.a
@@ -333,8 +327,4 @@ fn colour_for(taken: u64, both: bool) -> usize {
     } else {
         free.trailing_zeros() as usize
     }
-}
-
-const fn entry(id: u32, side: usize) -> u32 {
-    id << 1 | (side == 1) as u32
 }

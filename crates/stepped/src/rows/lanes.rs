@@ -7,20 +7,20 @@ use super::colour::Colour;
 use super::graph::{ASLEEP, Graph, HARD};
 use crate::bodies::Bodies;
 use crate::narrow::Manifold;
-use crate::{BodyIx, PieceIx, Surface};
+use crate::{BodyIx, ContactIx, PieceIx, Surface};
 
 impl Graph {
     /// The block and lane of a contact.
-    pub(crate) fn lane(&self, id: u32) -> (&Block, &Cold, usize) {
-        let contact = &self.contacts[id as usize];
+    pub(crate) fn lane(&self, id: ContactIx) -> (&Block, &Cold, usize) {
+        let contact = &self.contacts[id];
         let (k, lane) = contact.place();
         let colour = &self.colours[contact.colour as usize];
         (&colour.blocks[k], &colour.cold[k], lane)
     }
 
     /// The cold part and lane of a contact, if there is one of this number and it is awake.
-    pub(super) fn cold(&self, id: u32) -> Option<(&Cold, usize)> {
-        let contact = &self.contacts[id as usize];
+    pub(super) fn cold(&self, id: ContactIx) -> Option<(&Cold, usize)> {
+        let contact = &self.contacts[id];
         let (k, lane) = contact.place();
         let cold = self.colours[contact.colour as usize].cold.get(k)?;
         let there = cold.used >> lane & 1 == 1 && cold.contact[lane] == id;
@@ -28,24 +28,24 @@ impl Graph {
     }
 
     /// Whether there is such a contact of these pieces, and it is awake.
-    pub(crate) fn has(&self, id: u32, pieces: [PieceIx; 2]) -> bool {
-        self.cold(id).is_some() && self.contacts[id as usize].pieces == pieces
+    pub(crate) fn has(&self, id: ContactIx, pieces: [PieceIx; 2]) -> bool {
+        self.cold(id).is_some() && self.contacts[id].pieces == pieces
     }
 
     /// The colour of a contact, and its block and lane there.
-    pub(super) fn colour_mut(&mut self, id: u32) -> (&mut Colour, usize, usize) {
-        let contact = &self.contacts[id as usize];
+    pub(super) fn colour_mut(&mut self, id: ContactIx) -> (&mut Colour, usize, usize) {
+        let contact = &self.contacts[id];
         let (k, lane) = contact.place();
         (&mut self.colours[contact.colour as usize], k, lane)
     }
 
-    pub(crate) fn block_mut(&mut self, id: u32) -> (&mut Block, usize) {
+    pub(crate) fn block_mut(&mut self, id: ContactIx) -> (&mut Block, usize) {
         let (colour, k, lane) = self.colour_mut(id);
         (&mut colour.blocks[k], lane)
     }
 
     /// Gaps of both points of a contact where its bodies are, in m.
-    pub(crate) fn gaps(&self, bodies: &Bodies, id: u32) -> [f64; 2] {
+    pub(crate) fn gaps(&self, bodies: &Bodies, id: ContactIx) -> [f64; 2] {
         let (block, cold, lane) = self.lane(id);
         cold.gaps(block, lane, &bodies.lines)
     }
@@ -65,14 +65,14 @@ impl Graph {
         let has = move |(cold, lane): (&Cold, usize)| bits(cold) >> lane & 1 == 1;
         let deep = self.deep.iter();
         let deep = deep.filter(move |id| self.cold(**id).is_some_and(has));
-        deep.map(|id| self.contacts[*id as usize].bodies)
+        deep.map(|id| self.contacts[*id].bodies)
     }
 
     /// Both points of a contact, midway between the surfaces, in m.
-    pub(crate) fn places(&self, bodies: &Bodies, id: u32) -> [Vec2; 2] {
+    pub(crate) fn places(&self, bodies: &Bodies, id: ContactIx) -> [Vec2; 2] {
         let (block, _, lane) = self.lane(id);
         let normal = block.normal(lane);
-        let slots = self.contacts[id as usize].bodies;
+        let slots = self.contacts[id].bodies;
         let centres = slots.map(|slot| bodies.pose_of(slot).position);
         [0.0, block.l[lane]].map(|back| {
             let on = |centre: Vec2, height: f64, arm: f64| {
@@ -85,24 +85,28 @@ impl Graph {
     }
 
     /// Numbers of all contacts, colour by colour.
-    pub(crate) fn ids(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn ids(&self) -> impl Iterator<Item = ContactIx> {
         ids_in(&self.colours)
     }
 
     /// Those in hard rows.
-    pub(crate) fn hard_ids(&self) -> impl Iterator<Item = u32> {
+    pub(crate) fn hard_ids(&self) -> impl Iterator<Item = ContactIx> {
         ids_in(&self.colours[HARD..ASLEEP])
     }
 
     /// Place of a contact in an order that memory does not change: by births of its bodies, then by pieces.
-    pub(crate) fn order(&self, bodies: &Bodies, id: u32) -> ([u64; 2], [PieceIx; 2], u32) {
-        let contact = &self.contacts[id as usize];
+    pub(crate) fn order(
+        &self,
+        bodies: &Bodies,
+        id: ContactIx,
+    ) -> ([u64; 2], [PieceIx; 2], ContactIx) {
+        let contact = &self.contacts[id];
         let birth = |slot: BodyIx| bodies.records[slot].birth;
         (contact.bodies.map(birth), contact.pieces, id)
     }
 
     /// Puts contacts in [`Self::order`], each once.
-    pub(crate) fn sort(&self, bodies: &Bodies, ids: &mut Vec<u32>) {
+    pub(crate) fn sort(&self, bodies: &Bodies, ids: &mut Vec<ContactIx>) {
         ids.sort_unstable();
         ids.dedup();
         ids.sort_by_cached_key(|id| self.order(bodies, *id));
@@ -124,14 +128,14 @@ impl Graph {
     }
 
     /// Whether there is such a contact, and it is too deep for the sweeps.
-    pub(super) fn is_deep(&self, id: u32) -> bool {
+    pub(super) fn is_deep(&self, id: ContactIx) -> bool {
         self.cold(id).is_some_and(|(cold, lane)| cold.is_deep(lane))
     }
 
     /// Contacts of two bodies of very different mass that are awake.
-    pub(crate) fn unequal_awake(&self, bodies: &Bodies) -> impl Iterator<Item = u32> {
-        let is = |id: &u32| {
-            let ends = self.contacts[*id as usize].bodies;
+    pub(crate) fn unequal_awake(&self, bodies: &Bodies) -> impl Iterator<Item = ContactIx> {
+        let is = |id: &ContactIx| {
+            let ends = self.contacts[*id].bodies;
             self.cold(*id).is_some() && Self::is_unequal(bodies, ends)
         };
         self.unequal.iter().copied().filter(is)
@@ -147,13 +151,13 @@ impl Graph {
     }
 
     /// Whether a contact touched when it was last asked.
-    pub(crate) fn is_touching(&self, id: u32) -> bool {
+    pub(crate) fn is_touching(&self, id: ContactIx) -> bool {
         let (_, cold, lane) = self.lane(id);
         cold.touching >> lane & 1 == 1
     }
 
     /// Gives a contact another surface; its impulses stay.
-    pub(crate) fn resurface(&mut self, id: u32, surface: Surface) {
+    pub(crate) fn resurface(&mut self, id: ContactIx, surface: Surface) {
         let (colour, k, lane) = self.colour_mut(id);
         colour.discount(k, lane);
         colour.blocks[k].mu[lane] = surface.friction;
@@ -163,7 +167,7 @@ impl Graph {
     }
 
     /// Lets a contact start the next sub-step without impulses; velocities stay.
-    pub(crate) fn clear_warm_start(&mut self, bodies: &mut Bodies, id: u32) {
+    pub(crate) fn clear_warm_start(&mut self, bodies: &mut Bodies, id: ContactIx) {
         let (block, lane) = self.block_mut(id);
         let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
         let [push_a, push_b] = block.push(lane, &bodies.lines);
@@ -173,7 +177,7 @@ impl Graph {
     }
 
     /// Notes whether a contact pushes that other than the last sweep changed.
-    pub(super) fn note_pushing(&mut self, id: u32) {
+    pub(super) fn note_pushing(&mut self, id: ContactIx) {
         if self.cold(id).is_some() {
             let (colour, k, _) = self.colour_mut(id);
             colour.pushes[k] = colour.blocks[k].pushing();
@@ -191,7 +195,7 @@ impl Graph {
     }
 
     /// Gives a contact another place until it is computed anew; it starts without impulses.
-    pub(crate) fn put_anew(&mut self, bodies: &mut Bodies, id: u32, manifold: &Manifold) {
+    pub(crate) fn put_anew(&mut self, bodies: &mut Bodies, id: ContactIx, manifold: &Manifold) {
         self.clear_warm_start(bodies, id);
         let (colour, k, lane) = self.colour_mut(id);
         colour.blocks[k].put(lane, manifold);
@@ -199,7 +203,7 @@ impl Graph {
     }
 
     /// Lets a contact do nothing until it is computed anew.
-    pub(crate) fn hide(&mut self, bodies: &mut Bodies, id: u32) {
+    pub(crate) fn hide(&mut self, bodies: &mut Bodies, id: ContactIx) {
         self.clear_warm_start(bodies, id);
         let (colour, k, lane) = self.colour_mut(id);
         let block = &mut colour.blocks[k];
@@ -210,7 +214,7 @@ impl Graph {
     }
 }
 
-fn ids_in(colours: &[Colour]) -> impl Iterator<Item = u32> {
+fn ids_in(colours: &[Colour]) -> impl Iterator<Item = ContactIx> {
     let cold = colours.iter().flat_map(|colour| &colour.cold);
     cold.flat_map(|cold| lanes(cold.used).map(|lane| cold.contact[lane]))
 }

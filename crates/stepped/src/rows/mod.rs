@@ -33,7 +33,7 @@ pub(crate) use colour::Colour;
 pub(crate) use deep::Deep;
 pub(crate) use extra_sweeps::ExtraSweeps;
 pub(crate) use free::FreePairs;
-pub(crate) use graph::{Graph, HARD, Touched};
+pub(crate) use graph::{Contact, Graph, HARD, Touched};
 pub(crate) use integrate::{correct, displace, velocity_before, warm_start};
 pub(crate) use kernel::{Pass, sweep};
 pub(crate) use law::Law;

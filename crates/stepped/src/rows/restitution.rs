@@ -13,6 +13,7 @@ use super::bounce::Bounce;
 use super::bounce_budget::{Before, Places, keep, note, places};
 use super::graph::Graph;
 use super::law::Law;
+use crate::ContactIx;
 use crate::bodies::Bodies;
 
 /// Pull over so many sub-steps is rest. Less: piles with restitution hum; more: low bounces end early.
@@ -24,7 +25,7 @@ const SWEEPS: usize = 8;
 /// A contact of which a point is met, or both.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrival {
-    pub(crate) contact: u32,
+    pub(crate) contact: ContactIx,
     pub(super) lines: [u32; 2],
     /// Speed of the faster point, in m/s, and when the first one is met, in s from the beginning of the sub-step on.
     pub(crate) speed: f64,

@@ -9,8 +9,8 @@ use carom_math::{Rot, Vec2, perp, vec2};
 use super::block::{Block, OPEN};
 use super::graph::Graph;
 use super::line::{Line, Quad};
-use crate::PieceIx;
 use crate::bodies::Bodies;
+use crate::{ContactIx, PieceIx};
 
 /// Change of gap to second order within a tick from which on a row is rotated, as a part of the smaller extent. With 1e-3 the
 /// thesis scene has the same deepest overlap (3.5 mm; 15.5 without rotating rows), a smash and a drum no less.
@@ -24,7 +24,7 @@ pub(crate) struct RotatingRows {
 
 #[derive(Clone, Copy, Debug)]
 struct Row {
-    contact: u32,
+    contact: ContactIx,
     pieces: [PieceIx; 2],
     side: Side,
     seen: Seen,
@@ -64,7 +64,7 @@ impl RotatingRows {
     pub(crate) fn add(
         &mut self,
         (block, lane): (&Block, usize),
-        (contact, pieces): (u32, [PieceIx; 2]),
+        (contact, pieces): (ContactIx, [PieceIx; 2]),
         (bodies, side): (&Bodies, Side),
         (tick, extent): (f64, f64),
     ) {

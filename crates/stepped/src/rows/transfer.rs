@@ -2,6 +2,7 @@
 
 use super::block::LANES;
 use super::graph::{ASLEEP, COLOURS, Contact, FIRST_HARD, Graph, HARD};
+use crate::ContactIx;
 use crate::bodies::{Bodies, BodyKind, number};
 
 impl Contact {
@@ -38,8 +39,8 @@ const fn bit(colour: u32) -> u64 {
 
 impl Graph {
     /// Moves a contact between the colours and what sleeps; its bodies have their lines if it wakes.
-    pub(crate) fn shift(&mut self, bodies: &mut Bodies, id: u32, sleeps: bool) {
-        let contact = self.contacts[id as usize];
+    pub(crate) fn shift(&mut self, bodies: &mut Bodies, id: ContactIx, sleeps: bool) {
+        let contact = self.contacts[id];
         let (to, lines, home) = if sleeps {
             (ASLEEP, [0; 2], contact.colour)
         } else {
@@ -56,7 +57,7 @@ impl Graph {
                 };
             }
         }
-        self.contacts[id as usize].home = home;
+        self.contacts[id].home = home;
         self.transfer(id, to, lines);
     }
 
@@ -66,8 +67,8 @@ impl Graph {
     }
 
     /// Moves a contact that is awake, and not in the overflow colour, into hard rows or back.
-    pub(crate) fn set_hard(&mut self, id: u32, hard: bool) {
-        let contact = self.contacts[id as usize];
+    pub(crate) fn set_hard(&mut self, id: ContactIx, hard: bool) {
+        let contact = self.contacts[id];
         if contact.is_hard() != hard {
             let (block, _, lane) = self.lane(id);
             let lines = [block.a[lane], block.b[lane]];
@@ -77,8 +78,8 @@ impl Graph {
     }
 
     /// Moves a contact to another colour, with all its fields.
-    fn transfer(&mut self, id: u32, to: usize, lines: [u32; 2]) {
-        let contact = self.contacts[id as usize];
+    fn transfer(&mut self, id: ContactIx, to: usize, lines: [u32; 2]) {
+        let contact = self.contacts[id];
         let (from, (k, lane)) = (contact.colour as usize, contact.place());
         let row = self.colours[from].copy(k, lane);
         self.vacate(from, k, lane);
@@ -87,7 +88,7 @@ impl Graph {
         other.paste(place.0, place.1, &row);
         let block = &mut other.blocks[place.0];
         (block.a[place.1], block.b[place.1]) = (lines[0], lines[1]);
-        let contact = &mut self.contacts[id as usize];
+        let contact = &mut self.contacts[id];
         (contact.colour, contact.index) = (number(to), number(index));
         self.hard += usize::from(contact.is_hard());
     }

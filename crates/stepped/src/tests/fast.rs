@@ -200,7 +200,7 @@ fn what_was_stopped_overlaps_as_its_shape_does() {
         for _ in 0..20 {
             engine.substep(&Mixed);
             let depths = engine.graph.ids().filter_map(|id| {
-                let pair = engine.graph.contacts[id as usize].pieces;
+                let pair = engine.graph.contacts[id].pieces;
                 let [a, b] = pair.map(|number| {
                     let piece = &engine.pieces.list[number];
                     (piece, engine.bodies.pose_of(piece.body))

@@ -265,12 +265,10 @@ fn what_is_parted_turns_no_faster_than_it_goes() {
             }
             engine.substep(&Mixed);
             for contact in engine.graph.hard_ids() {
-                let [a, b] = engine.graph.contacts[contact as usize]
-                    .pieces
-                    .map(|number| {
-                        let piece = &engine.pieces.list[number];
-                        (piece, engine.bodies.pose_of(piece.body))
-                    });
+                let [a, b] = engine.graph.contacts[contact].pieces.map(|number| {
+                    let piece = &engine.pieces.list[number];
+                    (piece, engine.bodies.pose_of(piece.body))
+                });
                 let extent = a.0.extent.min(b.0.extent);
                 let gap = collide_any(a, b, 0.0).map_or(0.0, |found| found.gap());
                 looks += 1;

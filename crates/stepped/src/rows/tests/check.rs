@@ -23,7 +23,7 @@ impl Graph {
                         continue;
                     }
                     count += 1;
-                    let contact = &self.contacts[cold.contact[lane] as usize];
+                    let contact = &self.contacts[cold.contact[lane]];
                     assert_eq!((contact.colour as usize, contact.place()), (c, (k, lane)));
                     assert_eq!(contact.pieces, cold.pieces[lane]);
                     let lines = [block.a[lane], block.b[lane]];
