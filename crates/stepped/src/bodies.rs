@@ -6,7 +6,7 @@ pub(crate) use crate::input::{BodyId, BodyInput, BodyKind};
 pub(crate) use crate::record::{BEND, FAST, Limit, Record, Sleeper};
 use crate::record::{UNDAMPED, drag};
 use crate::rows::{Line, Quad, velocity_before};
-use crate::{BodyIx, EngineError, PieceIx, Settings};
+use crate::{BodyIx, EngineError, LineIx, PieceIx, Settings};
 
 /// A place in a list, or the length of one, as it is stored: what is counted so takes dozens of bytes each.
 #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32")]
@@ -49,20 +49,16 @@ pub(crate) struct Bodies {
     free_lines: Vec<bool>,
     free_count: usize,
     /// Lines of bodies that may deviate from their predicted motions, perhaps more than once: see [`Self::rebase_deviating`].
-    pub(crate) deviating: Vec<u32>,
+    pub(crate) deviating: Vec<LineIx>,
     /// Others may as well: lines came or went, or some body was changed.
     pub(crate) may_deviate: bool,
     /// Lines of bodies that may go far in the next sub-step, perhaps more than once, if not all may: see [`Self::fast`].
-    pub(crate) speedy: Option<Vec<u32>>,
+    pub(crate) speedy: Option<Vec<LineIx>>,
     /// How far beyond their boxes bodies may have come in the last sub-step, in m.
     pub(crate) beyond_boxes: f64,
 }
 
 impl Bodies {
-    /// The line of all fixed bodies; empty lanes name line 0.
-    pub(crate) const GROUND: u32 = 1;
-    pub(crate) const NONE: u32 = u32::MAX;
-
     pub(crate) fn new() -> Self {
         let unlimited = Limit {
             reach: 0.0,
@@ -86,18 +82,27 @@ impl Bodies {
         }
     }
 
+    /// The lines of all bodies that are awake and not fixed.
+    pub(crate) fn awake(&self) -> impl Iterator<Item = LineIx> + Clone + use<> {
+        (2..self.lines.len()).map(LineIx::new)
+    }
+
+    /// Where the centre of mass of the body of a line is.
+    pub(crate) fn centre_at(&self, at: LineIx) -> Vec2 {
+        self.base[at].position + self.lines[at].d()
+    }
+
     /// The pieces of the body of a line.
     pub(crate) fn pieces_of_line(
         &self,
-        line: usize,
+        line: LineIx,
     ) -> impl Iterator<Item = PieceIx> + Clone + use<> {
-        let record = &self.records[self.slot_of[line]];
-        record.pieces()
+        self.records[self.slot_of[line]].pieces()
     }
 
     /// Number of the insertion of the body of a line; 0 for the lines of empty lanes and of fixed bodies.
-    pub(crate) fn birth_of_line(&self, line: u32) -> u64 {
-        let slot = self.slot_of[line as usize];
+    pub(crate) fn birth_of_line(&self, line: LineIx) -> u64 {
+        let slot = self.slot_of[line];
         let record = self.records.get(slot.at());
         record.map_or(0, |record| record.birth)
     }
@@ -128,7 +133,7 @@ impl Bodies {
         }
         let generation = record.generation;
         if input.kind == BodyKind::Fixed {
-            record.line = Self::GROUND;
+            record.line = LineIx::GROUND;
         } else {
             self.give_line(slot, input.velocity, input.spin, settings);
             if let Some(turned) = self.turned.last_mut() {
@@ -140,7 +145,7 @@ impl Bodies {
 
     /// Gives a body a line at the end.
     fn give_line(&mut self, slot: BodyIx, v: Vec2, w: f64, settings: &Settings) {
-        let line = number(self.lines.len());
+        let line = LineIx::new(self.lines.len());
         let record = &mut self.records[slot];
         record.line = line;
         let (m, i) = (record.mass.recip(), record.inertia.recip());
@@ -174,14 +179,13 @@ impl Bodies {
 
     /// Whether a body can be moved, and nothing accelerates it but contacts.
     #[inline]
-    pub(crate) fn is_free(&self, line: u32) -> bool {
-        self.free_lines[line as usize]
+    pub(crate) fn is_free(&self, line: LineIx) -> bool {
+        self.free_lines[line]
     }
 
-    fn note_free(&mut self, line: u32) {
-        let at = line as usize;
-        let is = self.pull[at] == Quad::default() && self.lines[at].inverse_mass() > 0.0;
-        let was = core::mem::replace(&mut self.free_lines[at], is);
+    fn note_free(&mut self, line: LineIx) {
+        let is = self.pull[line] == Quad::default() && self.lines[line].inverse_mass() > 0.0;
+        let was = core::mem::replace(&mut self.free_lines[line], is);
         self.free_count += usize::from(is);
         self.free_count -= usize::from(was);
     }
@@ -192,14 +196,14 @@ impl Bodies {
     }
 
     /// Sets what accelerates the body of a line besides contacts.
-    pub(crate) fn set_pull(&mut self, line: u32, pull: Quad) {
-        self.pull[line as usize] = pull;
+    pub(crate) fn set_pull(&mut self, line: LineIx, pull: Quad) {
+        self.pull[line] = pull;
         self.note_free(line);
     }
 
     /// Takes the line of a body out, to be put back as it is but for a velocity of 0; which body moved to its place.
     pub(crate) fn lay(&mut self, slot: BodyIx) -> (Sleeper, Option<BodyIx>) {
-        let at = self.records[slot].line as usize;
+        let at = self.records[slot].line;
         let (pose, turned) = (self.pose_of(slot), self.turned_at(at));
         let record = &mut self.records[slot];
         (record.pose, record.turned) = (pose, turned);
@@ -221,18 +225,17 @@ impl Bodies {
     }
 
     /// Angle by which the body of a line has turned, in rad, whole turns included.
-    pub(crate) fn turned_at(&self, at: usize) -> f64 {
+    pub(crate) fn turned_at(&self, at: LineIx) -> f64 {
         self.turned[at] + self.lines[at].turn()
     }
 
     /// Gives a body its line again.
     pub(crate) fn raise(&mut self, sleeper: &Sleeper, settings: &Settings) {
         self.give_line(sleeper.slot, Vec2::ZERO, 0.0, settings);
-        let line = self.records[sleeper.slot].line;
-        let at = line as usize;
+        let at = self.records[sleeper.slot].line;
         self.lines[at] = sleeper.line;
         self.start[at] = sleeper.start;
-        self.set_pull(line, sleeper.pull);
+        self.set_pull(at, sleeper.pull);
         self.base[at] = sleeper.base;
         self.turned[at] = sleeper.turned;
         self.limits[at] = sleeper.limit;
@@ -240,17 +243,17 @@ impl Bodies {
     }
 
     /// The line of a body; that of fixed ones if it sleeps.
-    pub(crate) fn line_of(&self, slot: BodyIx) -> usize {
+    pub(crate) fn line_of(&self, slot: BodyIx) -> LineIx {
         match self.records[slot].line {
-            Self::NONE => Self::GROUND as usize,
-            line => line as usize,
+            LineIx::NONE => LineIx::GROUND,
+            line => line,
         }
     }
 
     /// Takes a line out; the last one moves there. Gives the slot of the body that moved.
     pub(crate) fn take_line(&mut self, slot: BodyIx) -> Option<BodyIx> {
         let line = self.records[slot].line;
-        let at = line as usize;
+        let at = line.at();
         self.free_count -= usize::from(self.free_lines.swap_remove(at));
         self.lines.swap_remove(at);
         self.start.swap_remove(at);
@@ -264,7 +267,7 @@ impl Bodies {
         self.foreseen.swap_remove(at);
         let drag = self.drag.swap_remove(at);
         self.damped -= usize::from(drag != UNDAMPED);
-        self.records[slot].line = Self::NONE;
+        self.records[slot].line = LineIx::NONE;
         // What is noted of lines is so by their numbers.
         (self.may_deviate, self.speedy) = (true, None);
         let moved = *self.slot_of.get(at)?;
@@ -295,8 +298,8 @@ impl Bodies {
     pub(crate) fn base_of(&self, slot: BodyIx) -> Pose {
         let record = &self.records[slot];
         match record.line {
-            Self::GROUND | Self::NONE => record.pose,
-            line => self.base[line as usize],
+            LineIx::GROUND | LineIx::NONE => record.pose,
+            line => self.base[line],
         }
     }
 
@@ -304,14 +307,14 @@ impl Bodies {
     pub(crate) fn pose_of(&self, slot: BodyIx) -> Pose {
         let record = &self.records[slot];
         match record.line {
-            Self::GROUND | Self::NONE => record.pose,
-            line => self.pose_at(line as usize),
+            LineIx::GROUND | LineIx::NONE => record.pose,
+            line => self.pose_at(line),
         }
     }
 
     /// Where the body of a line is, which is not fixed.
     #[inline]
-    pub(crate) fn pose_at(&self, at: usize) -> Pose {
+    pub(crate) fn pose_at(&self, at: LineIx) -> Pose {
         let (base, line) = (self.base[at], &self.lines[at]);
         Pose::new(
             base.position + line.d(),
@@ -321,7 +324,7 @@ impl Bodies {
 
     /// The velocity of the body of a line before the last sub-step, of `h` seconds.
     #[inline]
-    pub(crate) fn velocity_before(&self, at: usize, h: f64) -> (Vec2, f64) {
+    pub(crate) fn velocity_before(&self, at: LineIx, h: f64) -> (Vec2, f64) {
         let drag = if self.damped > 0 {
             &self.drag[at]
         } else {
@@ -333,10 +336,10 @@ impl Bodies {
     /// Velocity of the centre of mass and spin.
     pub(crate) fn velocity_of(&self, slot: BodyIx) -> (Vec2, f64) {
         match self.records[slot].line {
-            Self::NONE => (Vec2::ZERO, 0.0),
+            LineIx::NONE => (Vec2::ZERO, 0.0),
             // Adding 0 makes −0 a 0: a skipped block and one that pushes nothing give the same bits.
             line => {
-                let line = &self.lines[line as usize];
+                let line = &self.lines[line];
                 (line.v() + Vec2::ZERO, line.w() + 0.0)
             }
         }
@@ -355,7 +358,7 @@ impl Bodies {
 
     /// Marks whatever left its base pose by its tolerance, or may until the next tick, and makes its base pose where it is.
     pub(crate) fn rebase(&mut self, tick: f64) {
-        for at in 2..self.lines.len() {
+        for at in self.awake() {
             let (line, limit) = (self.lines[at], self.limits[at]);
             let far = |v: Vec2, w: f64| v.x.abs().max(v.y.abs()) + w.abs() * limit.reach;
             let went = far(line.d(), line.turn());
@@ -371,7 +374,7 @@ impl Bodies {
     }
 
     /// The base pose of the body of a line is where it is, from now on, if that is a place.
-    fn rebase_one(&mut self, at: usize) {
+    fn rebase_one(&mut self, at: LineIx) {
         let (line, base) = (&mut self.lines[at], &mut self.base[at]);
         if !line.is_finite() {
             return;
@@ -383,7 +386,7 @@ impl Bodies {
     }
 
     /// By how much a point of a body goes otherwise than was foreseen, in m/s; what gravity adds within a tick is foreseen.
-    pub(crate) fn change(&self, at: usize, tick: f64) -> f64 {
+    pub(crate) fn change(&self, at: LineIx, tick: f64) -> f64 {
         let (line, then) = (&self.lines[at], &self.foreseen[at]);
         let v = line.v() - then.v();
         let turns = (line.w() - then.w()).abs() * self.limits[at].reach;
@@ -399,31 +402,26 @@ impl Bodies {
     /// Slots of the bodies that go far within `h` seconds.
     pub(crate) fn fast(&self, h: f64) -> impl Iterator<Item = BodyIx> + '_ {
         let noted = self.speedy.as_deref();
-        let all = if noted.is_none() {
-            2..self.lines.len()
-        } else {
-            0..0
-        };
-        let noted = noted.unwrap_or_default().iter().map(|at| *at as usize);
+        let all = self.awake().filter(move |_| noted.is_none());
+        let noted = noted.unwrap_or_default().iter().copied();
         let fast = noted.chain(all).filter(move |at| self.is_fast(*at, h));
         fast.map(|at| self.slot_of[at])
     }
 
     /// Whether the body of a line goes far within `h` seconds.
-    fn is_fast(&self, at: usize, h: f64) -> bool {
+    fn is_fast(&self, at: LineIx, h: f64) -> bool {
         let (line, limit) = (&self.lines[at], &self.limits[at]);
         limit.is_far((line.v() * h).length_squared(), line.w() * h)
     }
 
     /// Changes the velocity of the body of a line by what lasts: its next sub-step begins with it.
-    pub(crate) fn push(&mut self, line: u32, push: &Quad) {
-        let at = line as usize;
-        self.lines[at].add(push);
-        self.start[at].add(push);
+    pub(crate) fn push(&mut self, line: LineIx, push: &Quad) {
+        self.lines[line].add(push);
+        self.start[line].add(push);
     }
 
     /// The body of a line has another velocity than the last sub-step left it with.
-    pub(crate) fn note_change(&mut self, line: u32) {
+    pub(crate) fn note_change(&mut self, line: LineIx) {
         self.deviating.push(line);
         if let Some(speedy) = &mut self.speedy {
             speedy.push(line);
@@ -434,7 +432,7 @@ impl Bodies {
     pub(crate) fn rebase_deviating(&mut self, settings: &Settings, rest: f64) -> bool {
         if self.may_deviate {
             let mut deviates = false;
-            for at in 2..self.lines.len() {
+            for at in self.awake() {
                 deviates |= self.rebase_if_deviating(at, settings, rest);
             }
             return deviates;
@@ -443,14 +441,14 @@ impl Bodies {
         deviating.sort_unstable();
         deviating.dedup();
         let mut deviates = false;
-        for &at in deviating.iter().filter(|at| **at > Self::GROUND) {
-            deviates |= self.rebase_if_deviating(at as usize, settings, rest);
+        for &at in deviating.iter().filter(|at| **at > LineIx::GROUND) {
+            deviates |= self.rebase_if_deviating(at, settings, rest);
         }
         self.deviating = deviating;
         deviates
     }
 
-    fn rebase_if_deviating(&mut self, at: usize, settings: &Settings, rest: f64) -> bool {
+    fn rebase_if_deviating(&mut self, at: LineIx, settings: &Settings, rest: f64) -> bool {
         let (line, limit) = (&self.lines[at], &self.limits[at]);
         let off = self.change(at, settings.tick) * rest;
         // What came, or was put elsewhere, since the tick is off as well.

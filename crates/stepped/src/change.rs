@@ -2,10 +2,11 @@
 
 use carom_math::{Pose, Vec2};
 
-use crate::bodies::{Bodies, number};
 use crate::error::{finite, finite_pose};
 use crate::rows::{Law, Quad};
-use crate::{BodyId, BodyKind, Engine, EngineError, Entry, PairRules, Settings, Sleep, Softness};
+use crate::{
+    BodyId, BodyKind, Engine, EngineError, Entry, LineIx, PairRules, Settings, Sleep, Softness,
+};
 
 /// Numbers of a pose, as errors name them.
 const POSE: [&str; 4] = [
@@ -33,7 +34,7 @@ impl Engine {
         self.wake_around(id.slot);
         let record = *self.bodies.get(id)?;
         if record.kind != BodyKind::Fixed {
-            let at = record.line as usize;
+            let at = record.line;
             let (line, start) = (&mut self.bodies.lines[at], &mut self.bodies.start[at]);
             // What contacts do in a sub-step does not change by it: both change by the same amount.
             let (v, w) = (line.v(), line.w());
@@ -68,7 +69,7 @@ impl Engine {
             }
             self.wake_overlapped(id.slot);
         } else {
-            let at = record.line as usize;
+            let at = record.line;
             self.bodies.base[at] = pose;
             self.bodies.lines[at].clear_displacement();
             (self.bodies.moved[at], self.bodies.may_deviate) = (true, true);
@@ -82,11 +83,11 @@ impl Engine {
     /// As [`Self::set_pose`].
     pub fn shift(&mut self, id: BodyId, pose: Pose) -> Result<(), EngineError> {
         let record = *self.bodies.get(id)?;
-        if record.line == Bodies::NONE || record.kind == BodyKind::Fixed {
+        if record.line == LineIx::NONE || record.kind == BodyKind::Fixed {
             return self.set_pose(id, pose);
         }
         finite_pose(POSE, pose)?;
-        let at = record.line as usize;
+        let at = record.line;
         let base = self.bodies.base[at];
         let turn = (pose.rotation * base.rotation.inverse()).angle();
         self.bodies.lines[at].set_displacement(pose.position - base.position, turn);
@@ -101,13 +102,13 @@ impl Engine {
     pub fn set_turned(&mut self, id: BodyId, turned: f64) -> Result<(), EngineError> {
         let record = *self.bodies.get(id)?;
         finite("turned", turned)?;
-        if record.line == Bodies::NONE || record.kind == BodyKind::Fixed {
+        if record.line == LineIx::NONE || record.kind == BodyKind::Fixed {
             self.bodies.records[id.slot].turned = turned;
             if let Some(sleeper) = self.islands.sleeper_mut(record.island, id.slot) {
                 sleeper.turned = turned - sleeper.line.turn();
             }
         } else {
-            let at = record.line as usize;
+            let at = record.line;
             self.bodies.turned[at] = turned - self.bodies.lines[at].turn();
         }
         Ok(())
@@ -126,7 +127,7 @@ impl Engine {
         finite("twist", twist)?;
         if record.kind == BodyKind::Dynamic {
             let pull = Quad::new(pull, twist);
-            if record.line != Bodies::NONE {
+            if record.line != LineIx::NONE {
                 self.bodies.set_pull(record.line, pull);
             } else if let Some(sleeper) = self.islands.sleeper_mut(record.island, id.slot) {
                 sleeper.pull = pull;
@@ -146,10 +147,10 @@ impl Engine {
             gravity,
             ..self.settings
         })?;
-        for at in 2..self.bodies.lines.len() {
+        for at in self.bodies.awake() {
             let record = &self.bodies.records[self.bodies.slot_of[at]];
             let pull = Quad::new(gravity * record.gravity_scale, 0.0);
-            self.bodies.set_pull(number(at), pull);
+            self.bodies.set_pull(at, pull);
         }
         Ok(())
     }

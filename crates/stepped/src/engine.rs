@@ -19,7 +19,7 @@ use crate::rows::{
 use crate::sleep::Islands;
 use crate::update::{create, met_asleep, update};
 use crate::whole::PutPairs;
-use crate::{BodyIx, ContactIx, EngineError, Mixed, PairRules, Settings};
+use crate::{BodyIx, ContactIx, EngineError, LineIx, Mixed, PairRules, Settings};
 
 /// Bodies in contact, moved one sub-step after the other.
 ///
@@ -63,7 +63,7 @@ pub struct Engine {
     /// Bodies that continuous collision stopped where they stood in the last sub-step, and what stands in their way.
     pub(crate) hanging: Vec<[BodyIx; 2]>,
     /// Lines of bodies that went far in this sub-step, and their displacements before it.
-    pub(crate) far: Vec<(u32, Quad)>,
+    pub(crate) far: Vec<(LineIx, Quad)>,
     /// Pairs of pieces that were looked at by shape.
     pub(crate) looks: u64,
     /// Bodies that were stopped since a number was no longer finite.
@@ -235,7 +235,7 @@ impl Engine {
             }
         };
         let boxes = &self.pieces.boxes;
-        for line in (2..self.bodies.lines.len()).filter(|line| self.bodies.moved[*line]) {
+        for line in self.bodies.awake().filter(|line| self.bodies.moved[*line]) {
             let its = self.bodies.pieces_of_line(line).map(|piece| boxes[piece]);
             tell(
                 self.bodies.slot_of[line],
@@ -287,7 +287,7 @@ impl Engine {
 
     /// Poses the pieces of bodies that were rebased.
     fn pose_moved(&mut self) {
-        for line in 2..self.bodies.lines.len() {
+        for line in self.bodies.awake() {
             if self.bodies.moved[line] {
                 self.pose_pieces(line);
             }
@@ -295,7 +295,7 @@ impl Engine {
     }
 
     /// Poses the pieces of the body of a line, and makes their boxes.
-    pub(crate) fn pose_pieces(&mut self, line: usize) {
+    pub(crate) fn pose_pieces(&mut self, line: LineIx) {
         let (bodies, pieces) = (&self.bodies, &mut self.pieces);
         let (body, limit) = (&bodies.lines[line], bodies.limits[line]);
         let (pose, tick) = (bodies.base[line], self.settings.tick);

@@ -15,7 +15,7 @@ use crate::narrow::Manifold;
 use crate::outline::Outline;
 use crate::pieces::Pieces;
 use crate::rows::Graph;
-use crate::{BodyIx, ContactIx, PieceIx};
+use crate::{BodyIx, ContactIx, LineIx, PieceIx};
 
 /// Pieces are flush within this part of the smaller extent. Smaller than rounding far out hides nothing; larger hides steps.
 const FLUSH: f64 = 1e-4;
@@ -42,10 +42,10 @@ pub(crate) struct Suspects {
 #[derive(Clone, Copy, Debug)]
 struct Short {
     /// Line of the body.
-    body: u32,
+    body: LineIx,
     contact: ContactIx,
     /// Line of the other body, if only a seam makes its piece flush.
-    seam_of: Option<u32>,
+    seam_of: Option<LineIx>,
 }
 
 impl Suspects {
@@ -63,15 +63,15 @@ impl Suspects {
     pub(crate) fn add_short(
         &mut self,
         (bodies, pieces): (&Bodies, &Pieces),
-        [a, b]: [u32; 2],
+        [a, b]: [LineIx; 2],
         pair: [PieceIx; 2],
         contact: ContactIx,
     ) {
         for (body, other, piece) in [(a, b, pair[1]), (b, a, pair[0])] {
-            if bodies.moved[body as usize] && has_sides(pieces.outline(piece)) {
-                let driven = bodies.lines[other as usize].inverse_mass() == 0.0;
+            if bodies.moved[body] && has_sides(pieces.outline(piece)) {
+                let driven = bodies.lines[other].inverse_mass() == 0.0;
                 // The seams of what did not move are those of before.
-                let stays = !bodies.moved[other as usize];
+                let stays = !bodies.moved[other];
                 let is_flush = stays || driven || pieces.owners[piece].several;
                 self.short.push(Short {
                     body,
@@ -82,17 +82,17 @@ impl Suspects {
         }
     }
 
-    pub(crate) fn add_seam(&mut self, lines: [u32; 2]) {
+    pub(crate) fn add_seam(&mut self, lines: [LineIx; 2]) {
         for line in lines {
-            self.seamed[line as usize] = true;
+            self.seamed[line] = true;
         }
     }
 
     /// Lines of bodies, in order, with their contacts that may be ghosts.
-    fn contacts(&self) -> Vec<(u32, ContactIx)> {
-        let seams = |short: &&Short| short.seam_of.is_none_or(|line| self.seamed[line as usize]);
+    fn contacts(&self) -> Vec<(LineIx, ContactIx)> {
+        let seams = |short: &&Short| short.seam_of.is_none_or(|line| self.seamed[line]);
         let asked = self.short.iter().filter(seams);
-        let mut asked: Vec<(u32, ContactIx)> =
+        let mut asked: Vec<(LineIx, ContactIx)> =
             asked.map(|short| (short.body, short.contact)).collect();
         asked.sort_unstable();
         asked
@@ -120,7 +120,7 @@ pub(crate) fn filter(graph: &mut Graph, bodies: &mut Bodies, pieces: &Pieces) {
     let (mut ghosts, mut sides) = (Vec::new(), BTreeMap::new());
     let suspects = graph.suspects.contacts();
     for asked in suspects.chunk_by(|a, b| a.0 == b.0) {
-        let slot = bodies.slot_of[asked[0].0 as usize];
+        let slot = bodies.slot_of[asked[0].0];
         if !bodies.is_dynamic(slot) {
             continue;
         }
@@ -273,7 +273,7 @@ impl Row {
             slope: if two { gaps[1] - gaps[0] } else { 0.0 },
             piece: pair[side],
             contact,
-            is_tip: bodies.lines[[block.a, block.b][side][lane] as usize].inverse_mass() == 0.0
+            is_tip: bodies.lines[[block.a, block.b][side][lane]].inverse_mass() == 0.0
                 && has_sides(pieces.outline(pair[1 - side])),
         }
     }

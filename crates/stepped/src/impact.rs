@@ -11,7 +11,7 @@ use carom_math::{Vec2, perp};
 use crate::bodies::{Bodies, number};
 use crate::pieces::Pieces;
 use crate::rows::{Arrival, Block, Colour, Graph, Law, REST, lanes};
-use crate::{BodyId, BodyIx, ContactIx, Engine, PieceIx};
+use crate::{BodyId, BodyIx, ContactIx, Engine, LineIx, PieceIx};
 
 /// A run goes on for so many sub-steps at most: what is pressed on for longer lies there.
 const LONGEST: u32 = 16;
@@ -232,15 +232,15 @@ impl Run {
         let normal = block.normal(lane);
         let sum = j[0] + j[1];
         // Midway between the surfaces: from the centre of a body that has a line of its own.
-        let [a, b] = [block.a[lane], block.b[lane]].map(|line| line as usize);
+        let [a, b] = block.lines(lane);
         let [gap, second] = block.gaps(lane, &bodies.lines);
         let half = 0.5 * gap.min(second).max(0.0);
-        let (line, height, arm) = if block.a[lane] == Bodies::GROUND {
+        let (line, height, arm) = if block.a[lane] == LineIx::GROUND {
             (b, block.bt[lane] - half, block.b1[lane])
         } else {
             (a, block.at[lane] + half, block.a1[lane])
         };
-        let centre = bodies.base[line].position + bodies.lines[line].d();
+        let centre = bodies.centre_at(line);
         let first = centre + normal * height - perp(normal) * arm;
         self.weight += sum;
         self.normal += normal * sum;
@@ -267,7 +267,7 @@ fn arrival(
     lane: usize,
     moved: bool,
 ) -> Option<[f64; 2]> {
-    let ends = [block.a[lane] as usize, block.b[lane] as usize];
+    let ends = block.lines(lane);
     let mut gaps = block.gaps(lane, &bodies.lines);
     let (points, j) = (block.points(lane), block.impulses(lane));
     let is_apart = |gaps: [f64; 2], point: &usize| j[*point] > 0.0 && gaps[*point] > 0.0;

@@ -2,10 +2,12 @@
 
 use carom_math::Pose;
 
-use crate::bodies::{Bodies, number};
+use crate::bodies::number;
 use crate::groups::reached;
 use crate::pieces::{Disc, Piece};
-use crate::{BodyId, BodyInput, BodyIx, BodyKind, Engine, EngineError, PieceInput, PieceIx};
+use crate::{
+    BodyId, BodyInput, BodyIx, BodyKind, Engine, EngineError, LineIx, PieceInput, PieceIx,
+};
 
 impl Engine {
     /// Adds a body made of these pieces.
@@ -42,7 +44,7 @@ impl Engine {
             }
             self.wake_overlapped(id.slot);
         } else {
-            let limit = &mut self.bodies.limits[record.line as usize];
+            let limit = &mut self.bodies.limits[record.line];
             limit.reach = reach;
             limit.tolerance = self.settings.tolerance * extent;
             limit.extent = extent;
@@ -111,7 +113,7 @@ impl Engine {
     /// The bodies that contacts connect with some, and move, also by what continuous collision did.
     fn connected(&self, slots: &[BodyIx]) -> Vec<BodyIx> {
         let moves = |other: &BodyIx| {
-            let is_awake = self.bodies.records[*other].line != Bodies::NONE;
+            let is_awake = self.bodies.records[*other].line != LineIx::NONE;
             is_awake && self.bodies.is_dynamic(*other)
         };
         let mut seen = vec![false; self.bodies.records.len()];

@@ -4,12 +4,13 @@ use core::fmt;
 use core::ops::{Index, IndexMut};
 
 use carom_geometry::Aabb;
+use carom_math::Pose;
 
 use crate::bodies::number;
 use crate::outline::Outline;
 use crate::pieces::{Disc, Owner, Piece};
-use crate::record::Record;
-use crate::rows::Contact;
+use crate::record::{Limit, Record, Sleeper};
+use crate::rows::{Contact, Line, Quad};
 
 /// Types of numbers, and what the lists hold that are read by them.
 macro_rules! numbers {
@@ -49,6 +50,10 @@ macro_rules! numbers {
 numbers! {
     /// A body: its slot, which is taken again once it is removed.
     BodyIx: Record;
+    /// A body that is awake, or all that are fixed: its place in the lists of lines.
+    LineIx: Line, Quad, [Quad; 2], Pose, Limit, BodyIx, bool, f64;
+    /// An island asleep.
+    IslandIx: Option<Vec<Sleeper>>;
     /// A contact of two pieces.
     ContactIx: Contact;
     /// A convex piece of a body.
@@ -70,6 +75,13 @@ impl Entry {
     pub(crate) fn end(self) -> Option<(ContactIx, usize)> {
         (self != Self::NONE).then_some((ContactIx(self.0 >> 1), (self.0 & 1) as usize))
     }
+}
+
+impl LineIx {
+    /// Of empty lanes.
+    pub(crate) const EMPTY: Self = Self(0);
+    /// Of all fixed bodies.
+    pub(crate) const GROUND: Self = Self(1);
 }
 
 impl PieceIx {

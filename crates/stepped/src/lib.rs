@@ -60,7 +60,7 @@ pub use engine::Engine;
 pub use error::EngineError;
 pub use impact::Impact;
 pub use input::{BodyId, BodyInput, BodyKind};
-pub(crate) use ix::{BodyIx, ContactIx, Entry, PieceIx};
+pub(crate) use ix::{BodyIx, ContactIx, Entry, IslandIx, LineIx, PieceIx};
 pub use pieces::{Material, PieceInput};
 pub use read::{Contact, State};
 pub use rules::{Mixed, PairRules, Surface};

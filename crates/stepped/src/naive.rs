@@ -150,7 +150,7 @@ impl Row {
         }
         Self {
             id,
-            ends: [block.a[lane] as usize, block.b[lane] as usize],
+            ends: [block.a[lane].at(), block.b[lane].at()],
             normal: n,
             middle: [n * at, n * bt],
             friction: block.mu[lane],

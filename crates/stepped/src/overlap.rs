@@ -25,12 +25,11 @@ impl Engine {
         }
         let mut is_far = vec![false; bodies.lines.len()];
         for &(line, before) in &*far {
-            let at = line as usize;
-            let (went, limit) = (&bodies.lines[at], &bodies.limits[at]);
+            let (went, limit) = (&bodies.lines[line], &bodies.limits[line]);
             let way = went.d() - before.v();
             let turn = went.turn() - before.w();
-            is_far[at] = limit.is_far(way.length_squared() / (FAR * FAR), turn / FAR)
-                && graph.of_body(bodies, bodies.slot_of[at]).next().is_some();
+            is_far[line] = limit.is_far(way.length_squared() / (FAR * FAR), turn / FAR)
+                && graph.of_body(bodies, bodies.slot_of[line]).next().is_some();
         }
         for id in stopped {
             is_far[bodies.line_of(id.slot)] = true;
@@ -42,7 +41,7 @@ impl Engine {
         for colour in graph.awake() {
             for (block, cold) in colour.blocks.iter().zip(&colour.cold) {
                 for lane in 0..LANES {
-                    let ends = [block.a[lane], block.b[lane]].map(|line| line as usize);
+                    let ends = block.lines(lane);
                     let [first, second] = cold.gaps(block, lane, &bodies.lines);
                     let gap = first.min(second);
                     if gap >= least {

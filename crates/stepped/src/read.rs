@@ -3,8 +3,9 @@
 use carom_geometry::Aabb;
 use carom_math::{Pose, Vec2};
 
-use crate::bodies::Bodies;
-use crate::{BodyId, BodyIx, BodyKind, ContactIx, Engine, EngineError, Entry, PieceIx, Settings};
+use crate::{
+    BodyId, BodyIx, BodyKind, ContactIx, Engine, EngineError, Entry, LineIx, PieceIx, Settings,
+};
 
 /// A body as the last sub-step left it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +98,7 @@ impl Engine {
     pub fn state(&self, id: BodyId) -> Result<State, EngineError> {
         let record = self.bodies.get(id)?;
         Ok(
-            if record.line == Bodies::NONE || record.kind == BodyKind::Fixed {
+            if record.line == LineIx::NONE || record.kind == BodyKind::Fixed {
                 State {
                     id,
                     tag: record.tag,
@@ -109,26 +110,27 @@ impl Engine {
                     lack: None,
                 }
             } else {
-                self.state_at(record.line as usize)
+                self.state_at(record.line)
             },
         )
     }
 
     /// All bodies that are awake and not fixed, in no order that means anything.
     pub fn awake(&self) -> impl Iterator<Item = State> + '_ {
-        (2..self.bodies.lines.len()).map(|line| self.state_at(line))
+        self.bodies.awake().map(|line| self.state_at(line))
     }
 
     /// Those of [`Self::awake`] that have no contact, pushing or not.
     pub fn without_contact(&self) -> impl Iterator<Item = State> + '_ {
         let bodies = &self.bodies;
-        let contacts = |at: usize| bodies.records[bodies.slot_of[at]].contacts;
-        (2..bodies.lines.len())
+        let contacts = |at: LineIx| bodies.records[bodies.slot_of[at]].contacts;
+        bodies
+            .awake()
             .filter(move |at| contacts(*at) == Entry::NONE)
             .map(|at| self.state_at(at))
     }
 
-    fn state_at(&self, at: usize) -> State {
+    fn state_at(&self, at: LineIx) -> State {
         let bodies = &self.bodies;
         let slot = bodies.slot_of[at];
         let record = &bodies.records[slot];

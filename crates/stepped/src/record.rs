@@ -2,10 +2,9 @@
 
 use carom_math::{Pose, trig};
 
-use crate::bodies::Bodies;
 use crate::input::BodyKind;
 use crate::rows::{Line, Quad};
-use crate::{BodyIx, Entry, PieceIx};
+use crate::{BodyIx, Entry, IslandIx, LineIx, PieceIx};
 
 /// What is kept of a body, awake or not.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +14,8 @@ pub(crate) struct Record {
     pub(crate) live: bool,
     /// Its island may fall asleep.
     pub(crate) sleep_allowed: bool,
-    /// Its line: [`Bodies::GROUND`] if fixed.
-    pub(crate) line: u32,
+    /// Its line: [`LineIx::GROUND`] if fixed.
+    pub(crate) line: LineIx,
     /// Number of its first piece, and how many it has.
     pub(crate) first_piece: PieceIx,
     pub(crate) count: u32,
@@ -37,8 +36,8 @@ pub(crate) struct Record {
     pub(crate) gravity_scale: f64,
     /// Distance of its farthest point from the centre of mass, in m.
     pub(crate) reach: f64,
-    /// The island that it sleeps in, or [`Bodies::NONE`].
-    pub(crate) island: u32,
+    /// The island that it sleeps in, or [`IslandIx::NONE`].
+    pub(crate) island: IslandIx,
     /// What velocity and spin lose by themselves, in 1/s.
     pub(crate) damping: [f64; 2],
     pub(crate) tag: u64,
@@ -139,7 +138,7 @@ impl Record {
         kind: BodyKind::Fixed,
         live: false,
         sleep_allowed: true,
-        line: Bodies::NONE,
+        line: LineIx::NONE,
         first_piece: PieceIx(0),
         count: 0,
         birth: 0,
@@ -152,7 +151,7 @@ impl Record {
         inertia: f64::INFINITY,
         gravity_scale: 0.0,
         reach: 0.0,
-        island: Bodies::NONE,
+        island: IslandIx::NONE,
         damping: [0.0; 2],
         tag: 0,
     };

@@ -6,10 +6,10 @@
 
 use carom_math::Vec2;
 
-use crate::bodies::{Bodies, Sleeper, number};
+use crate::bodies::{Bodies, Sleeper};
 use crate::groups::reached;
 use crate::update::nearness;
-use crate::{BodyId, BodyIx, BodyKind, ContactIx, Engine, EngineError};
+use crate::{BodyId, BodyIx, BodyKind, ContactIx, Engine, EngineError, IslandIx};
 
 /// Ticks between two searches for islands at rest. Fewer: an island that rests but for one body is walked for nothing;
 /// more: islands fall asleep later by as much.
@@ -25,7 +25,7 @@ const DISTURBS: f64 = 0.02;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Islands {
     asleep: Vec<Option<Vec<Sleeper>>>,
-    free: Vec<u32>,
+    free: Vec<IslandIx>,
     ticks: u64,
     /// How many of them were inserted asleep: they have met nothing yet.
     unmet: usize,
@@ -41,8 +41,8 @@ impl Islands {
     }
 
     /// What a sleeper goes on with once it wakes; `None` if it is awake.
-    pub(crate) fn sleeper_mut(&mut self, island: u32, slot: BodyIx) -> Option<&mut Sleeper> {
-        let sleepers = self.asleep.get_mut(island as usize);
+    pub(crate) fn sleeper_mut(&mut self, island: IslandIx, slot: BodyIx) -> Option<&mut Sleeper> {
+        let sleepers = self.asleep.get_mut(island.at());
         let mut sleepers = sleepers.into_iter().flatten().flatten();
         sleepers.find(|sleeper| sleeper.slot == slot)
     }
@@ -143,7 +143,7 @@ impl Engine {
     fn lay(&mut self, island: &[BodyIx]) {
         let number = self.islands.free.pop().unwrap_or_else(|| {
             self.islands.asleep.push(None);
-            number(self.islands.asleep.len() - 1)
+            IslandIx::new(self.islands.asleep.len() - 1)
         });
         for &slot in island {
             self.bodies.records[slot].island = number;
@@ -182,14 +182,14 @@ impl Engine {
             }
         }
         self.islands.unmet += usize::from(sleepers.iter().any(Sleeper::is_unmet));
-        self.islands.asleep[number as usize] = Some(sleepers);
+        self.islands.asleep[number] = Some(sleepers);
     }
 
     /// Wakes these islands, and what was inserted asleep in touch with such bodies.
-    pub(crate) fn wake_all(&mut self, islands: &[u32]) {
+    pub(crate) fn wake_all(&mut self, islands: &[IslandIx]) {
         let mut waking = islands.to_vec();
         while let Some(number) = waking.pop() {
-            let Some(sleepers) = self.islands.asleep[number as usize].take() else {
+            let Some(sleepers) = self.islands.asleep[number].take() else {
                 continue;
             };
             self.islands.free.push(number);
@@ -209,7 +209,7 @@ impl Engine {
             self.bodies.raise(sleeper, &self.settings);
             self.islands.changed.push(sleeper.slot);
             let record = &mut self.bodies.records[sleeper.slot];
-            record.island = Bodies::NONE;
+            record.island = IslandIx::NONE;
             for piece in record.pieces() {
                 self.pieces.pose(piece, sleeper.base);
                 self.broad.wake(piece);
@@ -226,7 +226,7 @@ impl Engine {
     }
 
     /// Islands asleep that a body that stands is nearer to than `margins`.
-    fn sleepers_at(&self, slot: BodyIx, margins: f64) -> Vec<u32> {
+    fn sleepers_at(&self, slot: BodyIx, margins: f64) -> Vec<IslandIx> {
         let record = &self.bodies.records[slot];
         let mut found = Vec::new();
         for piece in record.pieces() {
@@ -234,7 +234,7 @@ impl Engine {
             self.broad.standing_in(bounds, |other| {
                 let theirs = self.pieces.list[other].body;
                 let island = self.bodies.records[theirs].island;
-                if island != Bodies::NONE
+                if island != IslandIx::NONE
                     && theirs != slot
                     && nearness(&self.scene(), [piece, other]).is_some_and(|gap| gap <= margins)
                 {
@@ -248,13 +248,13 @@ impl Engine {
     }
 
     /// Those of them within `TOUCHES` that were inserted asleep.
-    fn unmet_at(&self, slot: BodyIx) -> Vec<u32> {
+    fn unmet_at(&self, slot: BodyIx) -> Vec<IslandIx> {
         if self.islands.unmet == 0 {
             return Vec::new();
         }
         let mut found = self.sleepers_at(slot, TOUCHES);
         found.retain(|island| {
-            let sleepers = self.islands.asleep[*island as usize].as_ref();
+            let sleepers = self.islands.asleep[*island].as_ref();
             sleepers.is_some_and(|sleepers| sleepers.iter().any(Sleeper::is_unmet))
         });
         found
@@ -269,11 +269,8 @@ impl Engine {
     }
 
     pub(crate) fn wake_every(&mut self) {
-        let all: Vec<u32> = (0u32..)
-            .zip(&self.islands.asleep)
-            .filter_map(|(number, island)| island.is_some().then_some(number))
-            .collect();
-        self.wake_all(&all);
+        let all = (0..self.islands.asleep.len()).map(IslandIx::new);
+        self.wake_all(&all.collect::<Vec<_>>());
     }
 
     /// Wakes the island of a body, and all islands that touch it.
@@ -286,7 +283,7 @@ impl Engine {
             }
         }
         islands.extend(self.unmet_at(slot));
-        islands.retain(|island| *island != Bodies::NONE);
+        islands.retain(|island| *island != IslandIx::NONE);
         islands.dedup();
         self.wake_all(&islands);
     }
@@ -308,7 +305,7 @@ impl Engine {
     /// [`EngineError::Stale`] if it is not in this engine.
     pub fn sleep(&mut self, id: BodyId) -> Result<(), EngineError> {
         let record = *self.bodies.get(id)?;
-        if record.kind == BodyKind::Dynamic && record.island == Bodies::NONE {
+        if record.kind == BodyKind::Dynamic && record.island == IslandIx::NONE {
             let mut seen = core::mem::take(&mut self.islands.seen);
             seen.resize(self.bodies.records.len(), false);
             let (island, _) = self.island(id.slot, 0.0, &mut seen);
@@ -333,7 +330,7 @@ impl Engine {
         for &slot in &changed {
             let record = &self.bodies.records[slot];
             if record.live {
-                tell(self.bodies.id(slot), record.island != Bodies::NONE);
+                tell(self.bodies.id(slot), record.island != IslandIx::NONE);
             }
         }
         changed.clear();
@@ -345,6 +342,6 @@ impl Engine {
     /// # Errors
     /// [`EngineError::Stale`] if it is not in this engine.
     pub fn is_asleep(&self, id: BodyId) -> Result<bool, EngineError> {
-        Ok(self.bodies.get(id)?.island != Bodies::NONE)
+        Ok(self.bodies.get(id)?.island != IslandIx::NONE)
     }
 }

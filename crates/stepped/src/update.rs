@@ -14,7 +14,7 @@ use crate::rows::{
     lanes, renew,
 };
 use crate::whole::PutPairs;
-use crate::{BodyIx, ContactIx, PairRules, PieceIx, Settings};
+use crate::{BodyIx, ContactIx, IslandIx, LineIx, PairRules, PieceIx, Settings};
 
 /// A kept contact may be so many margins wide, so that pairs do not come and go each tick.
 const KEPT: f64 = 1.5;
@@ -32,7 +32,7 @@ pub(crate) fn update(
     settings: &Settings,
     parted: &mut Vec<ContactIx>,
 ) -> f64 {
-    rotating.retain(graph, &bodies.moved);
+    rotating.retain(graph, bodies);
     let touched = graph.touched(bodies);
     graph.suspects.clear();
     graph.suspects.cover(bodies.lines.len());
@@ -82,11 +82,11 @@ pub(crate) fn update(
             near,
         );
         for lane in lanes(near) {
-            let ends = [block.a[lane], block.b[lane]];
+            let ends = block.lines(lane);
             let lines = &scene.bodies.lines;
             let [first, second] = block.gaps(lane, lines);
             let gap = first.min(second);
-            let beside = !displaced.is_empty() && ends.iter().any(|line| displaced[*line as usize]);
+            let beside = !displaced.is_empty() && ends.iter().any(|line| displaced[*line]);
             if gap < 0.0 || cold.is_deep(lane) || beside {
                 least = least.min(gap);
                 let deepest = deepest(law, pieces, cold.pieces[lane]);
@@ -104,7 +104,7 @@ pub(crate) fn update(
             }
         }
         for lane in lanes(near & (found.short | found.slants)) {
-            let lines = [block.a[lane], block.b[lane]];
+            let lines = block.lines(lane);
             suspects.add_short(
                 (scene.bodies, pieces),
                 lines,
@@ -127,7 +127,7 @@ pub(crate) fn update(
             }
         }
         for lane in lanes(near & found.seam) {
-            suspects.add_seam([block.a[lane], block.b[lane]]);
+            suspects.add_seam(block.lines(lane));
         }
         parted.extend(lanes(moved & !near).map(|lane| cold.contact[lane]));
     }
@@ -140,7 +140,7 @@ pub(crate) fn update(
 /// without thickness by more than half of its own would go through. A corner beside a corner is on no side: beyond the end of a wall
 /// it may be below the one that its body then lies on.
 fn keep_side(scene: &Scene<'_>, block: &Block, pair: [PieceIx; 2], lane: usize, found: &mut Found) {
-    let [a, b] = [block.a[lane], block.b[lane]].map(|line| &scene.bodies.lines[line as usize]);
+    let [a, b] = block.lines(lane).map(|line| &scene.bodies.lines[line]);
     let normal = found.rows.normal(lane);
     let overlaps = found.gap(lane, b.d() - a.d()) < 0.0;
     let pushes = block.j1[lane] + block.j2[lane] > 0.0;
@@ -205,9 +205,9 @@ fn manifolds(
     pairs: impl Iterator<Item = (usize, Pair)> + Clone,
     found: &mut Found,
 ) {
-    let mut eight = Eight::new(scene.pieces, [[0; LANES]; 2]);
+    let mut eight = Eight::new(scene.pieces, [[LineIx::EMPTY; LANES]; 2]);
     for (lane, pair) in pairs.clone() {
-        if eight.set_pieces(scene.pieces, lane, pair.pieces) {
+        if eight.set(scene.pieces, lane, pair.pieces) {
             (eight.lines[0][lane], eight.lines[1][lane]) = (pair.lines[0], pair.lines[1]);
             eight.least[lane] = scene.seen(pair.lines);
         }
@@ -225,18 +225,18 @@ pub(crate) fn met_asleep(
     scene: &Scene<'_>,
     candidates: &[[PieceIx; 2]],
     rules: &dyn PairRules,
-) -> Vec<u32> {
+) -> Vec<IslandIx> {
     let (bodies, pieces) = (scene.bodies, scene.pieces);
     let mut islands = Vec::new();
     for &pair in candidates {
         let slots = pair.map(|piece| pieces.list[piece].body);
         let [a, b] = slots.map(|slot| bodies.records[slot].island);
         let island = a.min(b);
-        if island == Bodies::NONE || islands.contains(&island) {
+        if island == IslandIx::NONE || islands.contains(&island) {
             continue;
         }
         // A body that moves is seen once a tolerance; one that rests wakes no island by lying near.
-        let slot = slots[usize::from(a != Bodies::NONE)];
+        let slot = slots[usize::from(a != IslandIx::NONE)];
         let line = bodies.line_of(slot);
         // Nor does a kinematic body at rest: sleepers may lean on it.
         let stands = !bodies.is_dynamic(slot) && bodies.velocity_of(slot) == (Vec2::ZERO, 0.0);
@@ -416,7 +416,7 @@ pub(crate) struct Fresh {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
     pub(crate) pieces: [PieceIx; 2],
-    lines: [u32; 2],
+    lines: [LineIx; 2],
 }
 
 impl Pair {
@@ -428,7 +428,7 @@ impl Pair {
     const fn of_lane(block: &Block, cold: &Cold, lane: usize) -> Self {
         Self {
             pieces: cold.pieces[lane],
-            lines: [block.a[lane], block.b[lane]],
+            lines: block.lines(lane),
         }
     }
 
@@ -440,7 +440,7 @@ impl Pair {
         let is_moved = records
             .iter()
             .any(|record| record.kind == BodyKind::Dynamic);
-        let are_here = !lines.contains(&Bodies::NONE);
+        let are_here = !lines.contains(&LineIx::NONE);
         (is_moved && are_here).then_some(Self {
             pieces: pair,
             lines,
@@ -459,7 +459,7 @@ fn narrow_tolerances(bodies: &mut Bodies, settings: &Settings, ends: [BodyIx; 2]
     for slot in ends {
         let line = bodies.line_of(slot);
         // All fixed bodies have one line, and none: they never move.
-        if line == Bodies::GROUND as usize {
+        if line == LineIx::GROUND {
             continue;
         }
         let limit = &mut bodies.limits[line];

@@ -68,8 +68,7 @@ impl PutPairs {
             }
             let is_near = found.near & bit != 0;
             let is_deep = if is_near {
-                let [a, b] = [block.a[lane], block.b[lane]]
-                    .map(|line| scene.bodies.lines[line as usize].d());
+                let [a, b] = block.lines(lane).map(|line| scene.bodies.lines[line].d());
                 scene.is_entangled(pair, found.gap(lane, b - a))
             } else {
                 scene.overlaps_across_cuts(pair)

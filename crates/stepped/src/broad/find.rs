@@ -57,7 +57,7 @@ impl Broad {
                 }
             }
         };
-        for line in 2..bodies.lines.len() {
+        for line in bodies.awake() {
             if bodies.moved[line] {
                 bodies.pieces_of_line(line).for_each(&mut ask);
             }
@@ -81,7 +81,7 @@ impl Broad {
             }
         }
         lists.new.clear();
-        let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
+        let movers = bodies.awake().flat_map(|line| bodies.pieces_of_line(line));
         for piece in movers.clone() {
             lists.states[piece] &= !(KNOWN | NEW | BESIDE | AMONG);
             if pieces.boxes[piece].is_valid() {
@@ -272,9 +272,9 @@ impl Broad {
         let line = |piece: PieceIx| bodies.line_of(pieces.owners[piece].body);
         let asks = |piece: PieceIx| {
             let came = self.woken.contains(&piece) || self.arrived.contains(&piece);
-            came || line(piece) >= 2 && bodies.moved[line(piece)]
+            came || line(piece) > crate::LineIx::GROUND && bodies.moved[line(piece)]
         };
-        let movers = (2..bodies.lines.len()).flat_map(|line| bodies.pieces_of_line(line));
+        let movers = bodies.awake().flat_map(|line| bodies.pieces_of_line(line));
         let stands = (0..)
             .map(PieceIx)
             .zip(&self.nodes)

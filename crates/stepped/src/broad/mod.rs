@@ -152,7 +152,7 @@ impl Broad {
         bodies: &Bodies,
         pieces: &Pieces,
     ) -> impl Iterator<Item = (PieceIx, Aabb)> {
-        let lines = 2..bodies.lines.len();
+        let lines = bodies.awake();
         self.with_boxes(pieces, lines.flat_map(|line| bodies.pieces_of_line(line)))
     }
 

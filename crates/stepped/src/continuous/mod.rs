@@ -21,7 +21,7 @@ use carom_math::{Pose, Vec2};
 
 use crate::bodies::{Bodies, Limit};
 use crate::rows::{Quad, turn_shifted};
-use crate::{BodyId, BodyIx, BodyKind, Engine, EngineError, PairRules, Settings};
+use crate::{BodyId, BodyIx, BodyKind, Engine, EngineError, LineIx, PairRules, Settings};
 use moving::{Fast, Moving};
 use touching::Touching;
 
@@ -57,12 +57,11 @@ pub(crate) fn note_fast(
     bodies: &Bodies,
     settings: &Settings,
     h: f64,
-    far: &[(u32, Quad)],
+    far: &[(LineIx, Quad)],
     fast: &mut Vec<FastBody>,
 ) {
     fast.clear();
-    for (at, from) in far {
-        let at = *at as usize;
+    for &(at, ref from) in far {
         let (line, limit) = (&bodies.lines[at], &bodies.limits[at]);
         if line.inverse_mass() > 0.0 {
             fast.push(FastBody {
@@ -84,7 +83,7 @@ impl Engine {
     /// [`EngineError::Stale`] if the body is not in this engine.
     pub fn carry(&mut self, id: BodyId, from: Pose) -> Result<(), EngineError> {
         let record = *self.bodies.get(id)?;
-        if record.kind == BodyKind::Fixed || record.line == Bodies::NONE {
+        if record.kind == BodyKind::Fixed || record.line == LineIx::NONE {
             return Ok(());
         }
         // Queries find it along all of its motion.
@@ -98,7 +97,7 @@ impl Engine {
         if record.kind != BodyKind::Dynamic {
             return Ok(());
         }
-        let at = record.line as usize;
+        let at = record.line;
         let (line, base) = (&self.bodies.lines[at], &self.bodies.base[at]);
         let d = from.position - base.position;
         let turn = (from.rotation * base.rotation.inverse()).angle();
@@ -154,7 +153,7 @@ impl Engine {
 
     /// A body may have been removed, fixed or put to sleep since it was noted.
     fn is_searched(&self, body: &FastBody) -> bool {
-        self.bodies.is_dynamic(body.slot) && self.bodies.line_of(body.slot) >= 2
+        self.bodies.is_dynamic(body.slot) && self.bodies.line_of(body.slot) > LineIx::GROUND
     }
 
     /// Fast bodies before their search.
@@ -244,13 +243,12 @@ impl Engine {
     ) -> Option<[BodyIx; 2]> {
         let pair = [body.slot, body.touched?];
         let line = self.bodies.records[body.slot].line;
-        let at = line as usize;
-        let went = (self.bodies.lines[at].d() - from).length();
+        let went = (self.bodies.lines[line].d() - from).length();
         if self.bodies.is_dynamic(pair[1]) || went > HANGS * (went + shift.length()) {
             return None;
         }
         if hung.contains(&pair) {
-            let (known, motion) = (&self.bodies.lines[at], &body.motion);
+            let (known, motion) = (&self.bodies.lines[line], &body.motion);
             if motion.velocity.length_squared() <= known.v().length_squared() {
                 let lost = Quad::new(motion.velocity - known.v(), -known.w());
                 self.bodies.push(line, &lost);
@@ -261,9 +259,9 @@ impl Engine {
     }
 
     /// Lines of two bodies, if contacts alone move both.
-    fn free_pair(&self, slots: [BodyIx; 2]) -> Option<[u32; 2]> {
+    fn free_pair(&self, slots: [BodyIx; 2]) -> Option<[LineIx; 2]> {
         let lines = slots.map(|slot| self.bodies.records[slot].line);
-        let is_free = |line: &u32| *line != Bodies::NONE && self.bodies.is_free(*line);
+        let is_free = |line: &LineIx| *line != LineIx::NONE && self.bodies.is_free(*line);
         lines.iter().all(is_free).then_some(lines)
     }
 
@@ -325,16 +323,14 @@ impl Engine {
         let shift = centre - base.position - line.d();
         line.set_displacement(centre - base.position, turn);
         self.bodies.moved[at] = true;
-        self.bodies
-            .deviating
-            .push(self.bodies.records[body.slot].line);
+        self.bodies.deviating.push(at);
         shift
     }
 
     /// The motion that brings a body to its pose within `left` seconds: from a displacement, or at its velocity.
     fn motion(&self, slot: BodyIx, from: Option<(Vec2, f64)>, left: f64) -> Motion {
         let at = self.bodies.line_of(slot);
-        if at < 2 {
+        if at <= LineIx::GROUND {
             let pose = self.bodies.pose_of(slot);
             return Motion {
                 rotation: pose.rotation,
@@ -370,7 +366,7 @@ impl Engine {
     /// Whether the centre of mass of a fast body leaves the swept boxes of the tick.
     fn leaves_boxes(&self, body: &FastBody) -> bool {
         let record = &self.bodies.records[body.slot];
-        let at = record.line as usize;
+        let at = record.line;
         let base = self.bodies.base[at].position;
         let (from, to) = (base + body.from.0, base + self.bodies.lines[at].d());
         let boxes = record.pieces();

@@ -8,9 +8,9 @@ use carom_math::{SimTime, Vec2};
 use super::cores::{depth, parts};
 use super::touching::Touching;
 use super::{Fast, FastBody, Moving, SHORT};
-use crate::bodies::{Bodies, number};
+use crate::bodies::number;
 use crate::narrow::arc;
-use crate::{BodyIx, Engine, PairRules, PieceIx, Settings};
+use crate::{BodyIx, Engine, LineIx, PairRules, PieceIx, Settings};
 
 impl Engine {
     /// Enters the first touches of fast body `k` with others from `span.0` to `span.1` seconds on.
@@ -79,7 +79,7 @@ impl Engine {
             for piece in PieceIx(0).run(number(self.pieces.list.len())) {
                 let other = &self.pieces.list[piece];
                 let line = self.bodies.records[other.body].line;
-                let stands = [Bodies::GROUND, Bodies::NONE].contains(&line);
+                let stands = [LineIx::GROUND, LineIx::NONE].contains(&line);
                 let is_left_out = if stands { !standing } else { moves };
                 if self.pieces.boxes[piece].is_valid()
                     && other.part == 0
@@ -274,7 +274,7 @@ impl Engine {
         let at = self.bodies.line_of(slot);
         let turn = self.bodies.lines[at].w() * self.law.h;
         // One sweep may leave much of a blow: what stands is sought whether there is a row or not.
-        let stands = self.bodies.records[self.pieces.list[pair[1]].body].line == Bodies::GROUND;
+        let stands = self.bodies.records[self.pieces.list[pair[1]].body].line == LineIx::GROUND;
         !stands && self.known.contains(pair) && !self.bodies.limits[at].is_far(0.0, turn)
     }
 }

@@ -4,6 +4,7 @@ use carom_impact::ImpactBody;
 use carom_math::Vec2;
 
 use super::solve::Island;
+use crate::LineIx;
 use crate::bodies::Bodies;
 use crate::rows::{Graph, Law, quotient};
 
@@ -51,7 +52,7 @@ pub(super) fn answers(
         let [j1, j2, jt] = block.impulses(lane);
         let impulse = j1.abs() + j2.abs() + jt.abs();
         let sizes = contact.ends.map(|end| {
-            let line = &bodies.lines[island.lines[end] as usize];
+            let line = &bodies.lines[island.lines[end]];
             line.v().length() + impulse * line.inverse_mass()
         });
         let zero = rest + ROUNDINGS * (sizes[0] + sizes[1]);
@@ -92,8 +93,8 @@ pub(super) fn justified(island: &Island, bodies: &Bodies) -> bool {
 fn gains_nothing(island: &Island, bodies: &Bodies, from: &ImpactBody) -> bool {
     let (mut before, mut after, mut carried) = (0.0, 0.0, 0.0);
     for (line, body) in island.moved() {
-        let (mass, now) = (body.inverse_mass.recip(), &bodies.lines[line as usize]);
-        let along = from.velocity_of(centre(bodies, line));
+        let (mass, now) = (body.inverse_mass.recip(), &bodies.lines[line]);
+        let along = from.velocity_of(bodies.centre_at(line));
         let was = square(body, body.velocity - along, body.spin - from.spin);
         let is = square(body, now.v() - along, now.w() - from.spin);
         (before, after) = (before + mass * was, after + mass * is);
@@ -106,13 +107,13 @@ fn gains_nothing(island: &Island, bodies: &Bodies, from: &ImpactBody) -> bool {
 fn none_is_faster(island: &Island, bodies: &Bodies, belt: f64) -> bool {
     let (mut fastest, mut fastest_after) = (0.0_f64, 0.0_f64);
     for (line, body) in island.moved() {
-        let now = &bodies.lines[line as usize];
+        let now = &bodies.lines[line];
         fastest = fastest.max(square(body, body.velocity, body.spin));
         fastest_after = fastest_after.max(square(body, now.v(), now.w()));
     }
     for driver in unmoved(island, bodies) {
-        let along = |(line, body): (u32, &ImpactBody)| {
-            let velocity = driver.velocity_of(centre(bodies, line));
+        let along = |(line, body): (LineIx, &ImpactBody)| {
+            let velocity = driver.velocity_of(bodies.centre_at(line));
             square(body, velocity, driver.spin)
         };
         fastest = island.moved().map(along).fold(fastest, f64::max);
@@ -125,8 +126,9 @@ fn none_is_faster(island: &Island, bodies: &Bodies, belt: f64) -> bool {
 fn unmoved<'i>(island: &'i Island, bodies: &'i Bodies) -> impl Iterator<Item = ImpactBody> + 'i {
     let lines = island.lines.iter().zip(&island.bodies);
     let unmoved = lines.filter(|(_, body)| body.inverse_mass <= 0.0);
-    unmoved
-        .map(|(&line, body)| ImpactBody::immovable(centre(bodies, line), body.velocity, body.spin))
+    unmoved.map(|(&line, body)| {
+        ImpactBody::immovable(bodies.centre_at(line), body.velocity, body.spin)
+    })
 }
 
 /// A body that moves as all do that cannot be moved, if these have one motion in common.
@@ -138,11 +140,6 @@ fn carrier(island: &Island, bodies: &Bodies) -> Option<ImpactBody> {
         (other.spin - first.spin).abs() <= 0.0 && other.velocity == first.velocity_of(other.centre)
     };
     unmoved.all(is_same).then_some(first)
-}
-
-/// Where the centre of mass of a body is.
-pub(super) fn centre(bodies: &Bodies, line: u32) -> Vec2 {
-    bodies.base[line as usize].position + bodies.lines[line as usize].d()
 }
 
 /// Twice the kinetic energy of a body, as a part of its mass, in m²/s².

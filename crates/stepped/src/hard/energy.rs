@@ -9,6 +9,7 @@ use carom_impact::ImpactBody;
 use carom_math::Vec2;
 
 use super::solve::Island;
+use crate::LineIx;
 use crate::bodies::Bodies;
 use crate::rows::{Graph, Law, Quad, quotient};
 
@@ -35,13 +36,13 @@ impl Island {
     /// What it has lost since, in J.
     pub(super) fn lost(&self, bodies: &Bodies) -> Option<f64> {
         let before = self.energy?;
-        let now = |(line, body): (u32, &ImpactBody)| {
-            let now = &bodies.lines[line as usize];
+        let now = |(line, body): (LineIx, &ImpactBody)| {
+            let now = &bodies.lines[line];
             body.moving(now.v(), now.w()).kinetic_energy()
         };
         let kinetic: f64 = self.moved().map(now).sum();
-        let went = |(line, from): (&u32, &Quad)| {
-            let now = &bodies.lines[*line as usize];
+        let went = |(line, from): (&LineIx, &Quad)| {
+            let now = &bodies.lines[*line];
             work(bodies, *line, now.d() - from.v(), now.turn() - from.w())
         };
         let fell: f64 = self.lines.iter().zip(&self.ways).map(went).sum();
@@ -53,8 +54,8 @@ impl Island {
         let Some(lost) = self.lost(bodies).filter(|lost| *lost < 0.0) else {
             return;
         };
-        let longer = |(line, from): (&u32, &Quad)| {
-            let now = &bodies.lines[*line as usize];
+        let longer = |(line, from): (&LineIx, &Quad)| {
+            let now = &bodies.lines[*line];
             let way = from.v() + now.v() * law.h - now.d();
             (way, from.w() + now.w() * law.h - now.turn())
         };
@@ -66,7 +67,7 @@ impl Island {
         let part = if falls > -lost { -lost / falls } else { 1.0 };
         if falls > 0.0 {
             for (line, (way, turn)) in self.lines.iter().zip(longer) {
-                let line = &mut bodies.lines[*line as usize];
+                let line = &mut bodies.lines[*line];
                 line.set_displacement(line.d() + way * part, line.turn() + turn * part);
             }
         }
@@ -74,9 +75,8 @@ impl Island {
 }
 
 /// What pull does on a way of a body, in J.
-pub(super) fn work(bodies: &Bodies, line: u32, way: Vec2, turn: f64) -> f64 {
-    let at = line as usize;
-    let (body, pull) = (&bodies.lines[at], &bodies.pull[at]);
+pub(super) fn work(bodies: &Bodies, line: LineIx, way: Vec2, turn: f64) -> f64 {
+    let (body, pull) = (&bodies.lines[line], &bodies.pull[line]);
     let straight = quotient(pull.v().dot(way), body.inverse_mass());
     straight + quotient(pull.w() * turn, body.inverse_inertia())
 }

@@ -53,11 +53,7 @@ const ALONG: f64 = 1e-3;
 pub(super) type Key = ([u64; 2], [PieceIx; 2]);
 
 pub(super) fn keys(graph: &Graph, bodies: &Bodies, ids: &[ContactIx]) -> Vec<Key> {
-    let key = |id: &ContactIx| {
-        let (births, pieces, _) = graph.order(bodies, *id);
-        (births, pieces)
-    };
-    ids.iter().map(key).collect()
+    ids.iter().map(|id| graph.order(bodies, *id)).collect()
 }
 
 /// An island that takes hard rows.

@@ -75,9 +75,9 @@ impl HardRows {
     pub(crate) fn free(&self, bodies: &mut Bodies, graph: &Graph) {
         for id in contacts_of(&self.islands) {
             let (block, _, lane) = graph.lane(id);
-            for line in [block.a[lane], block.b[lane]] {
-                let start = bodies.start[line as usize];
-                bodies.lines[line as usize].set_velocity(start.v(), start.w());
+            for line in block.lines(lane) {
+                let start = bodies.start[line];
+                bodies.lines[line].set_velocity(start.v(), start.w());
             }
         }
     }

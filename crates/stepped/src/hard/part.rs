@@ -12,12 +12,11 @@
 use carom_impact::{Friction, HeldFace, HeldFaces, ImpactBody};
 use carom_math::{Vec2, perp};
 
-use super::conditions::centre;
 use super::energy::work;
 use super::solve::{HardContact, Island};
-use crate::Settings;
 use crate::bodies::Bodies;
 use crate::rows::{FreePairs, Graph, Law, Quad};
+use crate::{LineIx, Settings};
 
 /// A body's contacts are computed anew once it turned so far, in rad: rows are straight. A ring at 14.7 rad/s lets a hexagon out by
 /// 22 mm where as much may turn as in soft rows.
@@ -97,7 +96,7 @@ impl Island {
             let mut faces = self.smooth_faces(graph);
             ask(&mut faces, &parts.stops);
             meet(&mut faces, |k| {
-                centre(bodies, self.lines[k]) + held.bodies[k].velocity * (part * law.h)
+                bodies.centre_at(self.lines[k]) + held.bodies[k].velocity * (part * law.h)
             });
             let stopped = self.held(&pushed, &faces);
             let gained = stopped
@@ -115,8 +114,7 @@ impl Island {
             return false;
         };
         self.displace(law.h * part, bodies, &held.bodies);
-        for (&line, to) in self.lines.iter().zip(&pushed) {
-            let at = line as usize;
+        for (&at, to) in self.lines.iter().zip(&pushed) {
             let line = &mut bodies.lines[at];
             let push = Quad::new(to.velocity - line.v(), to.spin - line.w());
             line.set_velocity(to.velocity, to.spin);
@@ -127,8 +125,8 @@ impl Island {
 
     /// The bodies after a part of a push.
     fn pushed(&self, part: f64, by: &[ImpactBody], bodies: &Bodies) -> Vec<ImpactBody> {
-        let push = |(line, by): (&u32, &ImpactBody)| {
-            let line = &bodies.lines[*line as usize];
+        let push = |(line, by): (&LineIx, &ImpactBody)| {
+            let line = &bodies.lines[*line];
             by.moving(line.v() + by.velocity * part, line.w() + by.spin * part)
         };
         self.lines.iter().zip(by).map(push).collect()
@@ -148,9 +146,7 @@ impl Island {
         if !self.is_swept {
             return 0.0;
         }
-        let extents = self
-            .moved()
-            .map(|(line, _)| bodies.limits[line as usize].extent);
+        let extents = self.moved().map(|(line, _)| bodies.limits[line].extent);
         SLOP * extents.fold(f64::INFINITY, f64::min)
     }
 
@@ -192,8 +188,8 @@ impl Island {
         let at_rest = self.bodies.iter().map(ImpactBody::at_rest);
         let held = self.held(&at_rest.collect::<Vec<_>>(), faces);
         let made = parts.fastest - law.push_out;
-        let share = |(line, by): (&u32, &ImpactBody)| {
-            let limit = &bodies.limits[*line as usize];
+        let share = |(line, by): (&LineIx, &ImpactBody)| {
+            let limit = &bodies.limits[*line];
             let slow = limit.near() * law.inverse_h;
             let fastest = by.velocity.length().max(by.spin.abs() * limit.reach);
             (made + law.push_out.min(slow)) / fastest
@@ -208,7 +204,7 @@ impl Island {
         let Some(lost) = self.lost(bodies) else {
             return 1.0;
         };
-        let falls = |(line, by): (&u32, &ImpactBody)| {
+        let falls = |(line, by): (&LineIx, &ImpactBody)| {
             work(bodies, *line, by.velocity * law.h, by.spin * law.h)
         };
         let raised: f64 = -self.lines.iter().zip(by).map(falls).sum::<f64>();
@@ -221,7 +217,7 @@ impl Island {
 
     fn displace(&self, h: f64, bodies: &mut Bodies, by: &[ImpactBody]) {
         for (&line, by) in self.lines.iter().zip(by) {
-            let line = &mut bodies.lines[line as usize];
+            let line = &mut bodies.lines[line];
             let (d, turn) = (line.d() + by.velocity * h, line.turn() + by.spin * h);
             line.set_displacement(d, turn);
         }
@@ -267,23 +263,21 @@ impl Island {
             return;
         };
         for (&line, to) in self.lines.iter().zip(parted) {
-            let at = line as usize;
-            if share * to.velocity.length() > sleep.least(bodies.limits[at].extent) {
-                bodies.rest[at] = bodies.rest[at].min(0.0);
+            if share * to.velocity.length() > sleep.least(bodies.limits[line].extent) {
+                bodies.rest[line] = bodies.rest[line].min(0.0);
             }
         }
     }
 
     /// Notes the bodies that turned so far that their contacts are computed anew.
     fn note_turned(&self, bodies: &mut Bodies, settings: &Settings) {
-        for &line in self.lines.iter().filter(|line| **line > Bodies::GROUND) {
-            let at = line as usize;
-            let turn = bodies.lines[at].turn();
+        for &line in self.lines.iter().filter(|line| **line > LineIx::GROUND) {
+            let turn = bodies.lines[line].turn();
             let is_stale = turn.abs() > STALE;
-            if is_stale || bodies.limits[at].deviates(settings.margin, 0.0, turn) {
+            if is_stale || bodies.limits[line].deviates(settings.margin, 0.0, turn) {
                 bodies.deviating.push(line);
             }
-            bodies.moved[at] |= is_stale;
+            bodies.moved[line] |= is_stale;
         }
     }
 }

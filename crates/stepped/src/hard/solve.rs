@@ -3,11 +3,11 @@
 use carom_impact::{Friction, HeldFace, HeldFaces, HeldPoint, ImpactBody, held_faces, swept_faces};
 use carom_math::{Vec2, perp};
 
-use super::conditions::{answers, centre, justified, rest};
+use super::conditions::{answers, justified, rest};
 use super::islands::Found;
-use crate::ContactIx;
 use crate::bodies::Bodies;
 use crate::rows::{Graph, Law, OPEN, Quad};
+use crate::{ContactIx, LineIx};
 
 /// Gap or overlap that counts as 0, as a part of how far pull moves a body in a sub-step: closing what rounding left open, a column
 /// at rest would be solved for in every sub-step.
@@ -31,7 +31,7 @@ pub(super) struct HardContact {
 /// Bodies and contacts of an island in a sub-step.
 #[derive(Clone, Debug)]
 pub(super) struct Island {
-    pub(super) lines: Vec<u32>,
+    pub(super) lines: Vec<LineIx>,
     /// With centres at 0: arms are told from there. Pulled, before contacts act.
     pub(super) bodies: Vec<ImpactBody>,
     /// Velocities and spins as the sub-step begins.
@@ -75,7 +75,7 @@ impl Island {
             } else {
                 0
             };
-            let lines = [block.a[lane], block.b[lane]];
+            let lines = block.lines(lane);
             let is_free = lines.iter().all(|line| bodies.is_free(*line));
             are_free &= is_free;
             island.gives_back |= is_free;
@@ -91,28 +91,28 @@ impl Island {
         let ways = island
             .lines
             .iter()
-            .map(|line| bodies.lines[*line as usize].displacement());
+            .map(|line| bodies.lines[*line].displacement());
         island.ways = ways.collect();
         island.energy = island.energy_before(graph);
         let pulls = island
             .lines
             .iter()
-            .map(|line| bodies.pull[*line as usize].v().length());
+            .map(|line| bodies.pull[*line].v().length());
         island.pulled = law.h * pulls.fold(0.0, f64::max);
         if are_free {
-            let centres = island.lines.iter().map(|line| centre(bodies, *line));
+            let centres = island.lines.iter().map(|line| bodies.centre_at(*line));
             island.begun = Some((island.smooth_faces(graph), centres.collect()));
         }
         island
     }
 
     /// The place of a line, which is new to the island or not.
-    fn place(&mut self, law: &Law, bodies: &Bodies, line: u32) -> usize {
+    fn place(&mut self, law: &Law, bodies: &Bodies, line: LineIx) -> usize {
         if let Some(known) = self.lines.iter().position(|known| *known == line) {
             return known;
         }
-        let (body, start) = (&bodies.lines[line as usize], &bodies.start[line as usize]);
-        self.came.push(bodies.velocity_before(line as usize, law.h));
+        let (body, start) = (&bodies.lines[line], &bodies.start[line]);
+        self.came.push(bodies.velocity_before(line, law.h));
         self.lines.push(line);
         self.bodies.push(ImpactBody {
             inverse_mass: body.inverse_mass(),
@@ -125,7 +125,7 @@ impl Island {
     }
 
     /// Lines and states before contacts act of the bodies that these can move.
-    pub(super) fn moved(&self) -> impl Iterator<Item = (u32, &ImpactBody)> {
+    pub(super) fn moved(&self) -> impl Iterator<Item = (LineIx, &ImpactBody)> {
         let lines = self.lines.iter().copied().zip(&self.bodies);
         lines.filter(|(_, body)| body.inverse_mass > 0.0)
     }
@@ -160,14 +160,13 @@ impl Island {
     /// Takes out what rounding left of the velocities of bodies at rest: with it each sub-step would need other impulses.
     fn settle(&self, bodies: &mut Bodies, rest: f64) {
         for &line in &self.lines {
-            let at = line as usize;
-            let body = &mut bodies.lines[at];
+            let body = &mut bodies.lines[line];
             let (v, w) = (body.v(), body.w());
-            let turns = w.abs() * bodies.limits[at].reach;
+            let turns = w.abs() * bodies.limits[line].reach;
             if body.inverse_mass() > 0.0 && v.x.abs().max(v.y.abs()) + turns <= rest {
                 body.set_velocity(Vec2::ZERO, 0.0);
                 // The warm start stays.
-                bodies.start[at].add(&Quad::new(-v, -w));
+                bodies.start[line].add(&Quad::new(-v, -w));
             }
         }
     }
@@ -175,13 +174,13 @@ impl Island {
     /// Gives bodies what their rows do.
     fn push(&self, bodies: &mut Bodies, graph: &Graph) {
         for (&line, body) in self.lines.iter().zip(&self.bodies) {
-            bodies.lines[line as usize].set_velocity(body.velocity, body.spin);
+            bodies.lines[line].set_velocity(body.velocity, body.spin);
         }
         for contact in &self.contacts {
             let (block, _, lane) = graph.lane(contact.id);
             let pushes = block.push(lane, &bodies.lines);
             for (end, push) in contact.ends.into_iter().zip(&pushes) {
-                bodies.lines[self.lines[end] as usize].add(push);
+                bodies.lines[self.lines[end]].add(push);
             }
         }
     }

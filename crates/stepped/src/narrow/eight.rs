@@ -3,16 +3,16 @@
 use carom_math::Vec2;
 
 use super::Manifold;
-use crate::PieceIx;
 use crate::outline::Outline;
 use crate::pieces::Pieces;
 use crate::rows::{Block, LANES};
+use crate::{LineIx, PieceIx};
 
 /// Which pairs: pieces that have outlines, and the lines of their bodies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Eight<'a> {
     pub(super) outlines: [[&'a Outline; LANES]; 2],
-    pub(crate) lines: [[u32; LANES]; 2],
+    pub(crate) lines: [[LineIx; LANES]; 2],
     /// What the margin is at least, in m.
     pub(crate) least: [f64; LANES],
     /// Faces that separate them against it are none, if it is there: a normal from A to B.
@@ -29,7 +29,7 @@ pub(crate) struct Eight<'a> {
 
 impl<'a> Eight<'a> {
     /// No pairs: the first piece against itself.
-    pub(crate) fn new(pieces: &'a Pieces, lines: [[u32; LANES]; 2]) -> Self {
+    pub(crate) fn new(pieces: &'a Pieces, lines: [[LineIx; LANES]; 2]) -> Self {
         Self {
             outlines: [[&pieces.outlines[0]; LANES]; 2],
             lines,
@@ -43,12 +43,7 @@ impl<'a> Eight<'a> {
     }
 
     /// Puts two pieces into a lane, if both have outlines.
-    pub(crate) fn set_pieces(
-        &mut self,
-        pieces: &'a Pieces,
-        lane: usize,
-        pair: [PieceIx; 2],
-    ) -> bool {
+    pub(crate) fn set(&mut self, pieces: &'a Pieces, lane: usize, pair: [PieceIx; 2]) -> bool {
         let [a, b] = pair.map(|piece| pieces.outline(piece));
         let all = a.count().min(b.count()) > 0.0;
         if all {

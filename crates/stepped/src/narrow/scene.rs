@@ -7,10 +7,10 @@ use fearless_simd::Level;
 
 use super::hulls::overlaps_across_cuts;
 use super::{Eight, Found, Manifold, collide_any, collide_eight};
-use crate::bodies::{Bodies, number};
+use crate::bodies::Bodies;
 use crate::pieces::Pieces;
 use crate::rows::LANES;
-use crate::{PieceIx, Settings};
+use crate::{LineIx, PieceIx, Settings};
 
 /// Part of a margin by which B's face must separate better than A's: flush faces keep one owner.
 pub(super) const HYSTERESIS: f64 = 0.1;
@@ -49,7 +49,7 @@ impl Scene<'_> {
         factor: f64,
     ) -> Option<Manifold> {
         let mut eight = Eight::new(self.pieces, pair.map(|piece| [self.line_of(piece); LANES]));
-        if eight.set_pieces(self.pieces, 0, pair) {
+        if eight.set(self.pieces, 0, pair) {
             eight.least[0] = self.seen(pair.map(|piece| self.line_of(piece)));
             eight.side = (side != Vec2::ZERO).then_some(side);
             let mut found = Found::NONE;
@@ -107,14 +107,14 @@ impl Scene<'_> {
     }
 
     /// The line of a piece's body; that of fixed ones if it sleeps.
-    fn line_of(&self, piece: PieceIx) -> u32 {
-        number(self.bodies.line_of(self.pieces.list[piece].body))
+    fn line_of(&self, piece: PieceIx) -> LineIx {
+        self.bodies.line_of(self.pieces.list[piece].body)
     }
 
     /// What the bodies of two lines may close by unseen, in m: each may be a tolerance off its base pose, and go as far again.
-    pub(crate) fn seen(&self, lines: [u32; 2]) -> f64 {
+    pub(crate) fn seen(&self, lines: [LineIx; 2]) -> f64 {
         let [a, b] = lines.map(|line| {
-            let tolerance = self.bodies.limits[line as usize].tolerance;
+            let tolerance = self.bodies.limits[line].tolerance;
             // What is fixed has no tolerance yet.
             if tolerance < f64::INFINITY {
                 tolerance
@@ -134,7 +134,7 @@ impl Scene<'_> {
 
     pub(super) fn meeting(&self, pair: [PieceIx; 2]) -> Meeting {
         let [a, b] = pair.map(|piece| self.pieces.list[piece].reach);
-        let [line_a, line_b] = pair.map(|piece| &self.bodies.lines[self.line_of(piece) as usize]);
+        let [line_a, line_b] = pair.map(|piece| &self.bodies.lines[self.line_of(piece)]);
         let turning = arc(line_a.w(), a) + arc(line_b.w(), b);
         let turned = arc(line_a.turn(), a) + arc(line_b.turn(), b);
         let tick = self.settings.tick;
@@ -150,7 +150,7 @@ impl Scene<'_> {
 
     /// How far the nearer point closes from the base poses until the next tick, in m, if velocities stay but for gravity.
     pub(crate) fn closes(&self, pair: [PieceIx; 2], found: &Manifold) -> f64 {
-        let lines = pair.map(|piece| self.line_of(piece) as usize);
+        let lines = pair.map(|piece| self.line_of(piece));
         let [a, b] = lines.map(|line| &self.bodies.lines[line]);
         let pull: Vec2 = self.bodies.pull[lines[1]].v() - self.bodies.pull[lines[0]].v();
         let n = found.normal;
@@ -166,7 +166,7 @@ impl Scene<'_> {
 
     /// The least gap at the next tick, in m, if velocities stay but, if it `falls`, for gravity: each point goes its own way.
     pub(crate) fn gap_ahead(&self, pair: [PieceIx; 2], found: &Manifold, falls: bool) -> f64 {
-        let lines = pair.map(|piece| self.line_of(piece) as usize);
+        let lines = pair.map(|piece| self.line_of(piece));
         let [a, b] = lines.map(|line| &self.bodies.lines[line]);
         let pull = if falls {
             self.bodies.pull[lines[1]].v() - self.bodies.pull[lines[0]].v()

@@ -5,7 +5,7 @@ use carom_math::{Vec2, perp};
 use super::line::{Line, Quad};
 use crate::bodies::Bodies;
 use crate::narrow::Manifold;
-use crate::{ContactIx, PieceIx};
+use crate::{ContactIx, LineIx, PieceIx};
 
 /// Contacts in a block.
 pub(crate) const LANES: usize = 8;
@@ -58,8 +58,8 @@ pub(crate) fn lanes(mut bits: u8) -> impl Iterator<Item = usize> + Clone {
 #[repr(C, align(64))]
 pub(crate) struct Block {
     /// Lines of the bodies.
-    pub(crate) a: [u32; LANES],
-    pub(crate) b: [u32; LANES],
+    pub(crate) a: [LineIx; LANES],
+    pub(crate) b: [LineIx; LANES],
     pub(crate) nx: [f64; LANES],
     pub(crate) ny: [f64; LANES],
     pub(crate) a1: [f64; LANES],
@@ -108,8 +108,8 @@ pub(crate) struct Cold {
 impl Block {
     /// No rows: gaps that never close, between line 0 and itself.
     pub(crate) const EMPTY: Self = Self {
-        a: [0; LANES],
-        b: [0; LANES],
+        a: [LineIx::EMPTY; LANES],
+        b: [LineIx::EMPTY; LANES],
         nx: [1.0; LANES],
         ny: [0.0; LANES],
         a1: [0.0; LANES],
@@ -158,9 +158,14 @@ impl Block {
         [self.j1[lane], self.j2[lane], self.jt[lane]] = j;
     }
 
+    /// Lines of the bodies of a lane.
+    pub(crate) const fn lines(&self, lane: usize) -> [LineIx; 2] {
+        [self.a[lane], self.b[lane]]
+    }
+
     /// The bodies of a lane.
     fn ends<'l>(&self, lane: usize, lines: &'l [Line]) -> [&'l Line; 2] {
-        [self.a[lane], self.b[lane]].map(|line| &lines[line as usize])
+        self.lines(lane).map(|line| &lines[line.at()])
     }
 
     /// M⁻¹ Jᵀ j of a lane: what its impulses add to the velocities of A and of B.
@@ -183,9 +188,8 @@ impl Block {
     /// momentum: `b1 − a1 = (c_A − c_B) × n`, and likewise along the normal. Gaps stay. Of bodies that can be moved; by how much arms
     /// changed, across and along the normal.
     pub(crate) fn meet(&mut self, lane: usize, bodies: &Bodies) -> (f64, f64) {
-        let [a, b] = [self.a[lane] as usize, self.b[lane] as usize];
-        let centre = |at: usize| bodies.base[at].position + bodies.lines[at].d();
-        let (n, away) = (self.normal(lane), centre(a) - centre(b));
+        let [a, b] = self.lines(lane);
+        let (n, away) = (self.normal(lane), bodies.centre_at(a) - bodies.centre_at(b));
         let lever = 0.5 * (away.perp_dot(n) - (self.b1[lane] - self.a1[lane]));
         let height = 0.5 * (away.dot(n) - (self.bt[lane] - self.at[lane]));
         (self.a1[lane], self.b1[lane]) = (self.a1[lane] - lever, self.b1[lane] + lever);

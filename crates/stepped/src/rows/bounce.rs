@@ -12,6 +12,7 @@ use carom_math::{Vec2, perp};
 use super::block::{Block, Cold};
 use super::line::{Line, Quad};
 use super::restitution::Arrival;
+use crate::LineIx;
 use crate::bodies::Bodies;
 
 /// What is smaller is rounding, as a part of what was added up.
@@ -20,7 +21,7 @@ const ROUNDING: f64 = 1e-12;
 /// A contact that bounces, where its bodies are.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounce {
-    lines: [usize; 2],
+    lines: [LineIx; 2],
     axes: Axes,
     /// Inverse masses and inertias.
     inverse: [[f64; 2]; 2],
@@ -93,10 +94,9 @@ impl Axes {
 impl Bounce {
     pub(super) fn new(
         (block, cold, lane): (&Block, &Cold, usize),
-        lines: [u32; 2],
+        lines: [LineIx; 2],
         bodies: &Bodies,
     ) -> Self {
-        let lines = lines.map(|line| line as usize);
         let inverse = lines.map(|line| {
             let line = &bodies.lines[line];
             [line.inverse_mass(), line.inverse_inertia()]
@@ -122,7 +122,7 @@ impl Bounce {
     fn speeds(&self, lines: &[Line]) -> [f64; 3] {
         let velocities = self
             .lines
-            .map(|line| Quad::new(lines[line].v(), lines[line].w()));
+            .map(|line| Quad::new(lines[line.at()].v(), lines[line.at()].w()));
         let [one, other, across] = self.axes.speeds(velocities);
         [one, other, across - self.belt]
     }

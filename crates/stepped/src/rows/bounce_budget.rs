@@ -9,6 +9,7 @@ use carom_math::Vec2;
 use super::bounce::Bounce;
 use super::line::{Line, Quad, quotient};
 use super::restitution::Arrival;
+use crate::LineIx;
 use crate::bodies::Bodies;
 use crate::groups::Groups;
 
@@ -18,24 +19,23 @@ const ROUNDING: f64 = 1e-13;
 /// A body before it bounced.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Before {
-    line: u32,
+    line: LineIx,
     /// Kinetic energy before the sub-step, in J.
     kinetic: f64,
     d: Quad,
 }
 
 /// Notes the bodies of all arrivals, once the warm start acts and before anything is solved for.
-pub(crate) fn note(bodies: &Bodies, lines: &[[u32; 2]], h: f64, before: &mut Vec<Before>) {
+pub(crate) fn note(bodies: &Bodies, lines: &[[LineIx; 2]], h: f64, before: &mut Vec<Before>) {
     before.clear();
-    let mut all: Vec<u32> = lines.iter().flatten().copied().collect();
+    let mut all: Vec<LineIx> = lines.iter().flatten().copied().collect();
     all.sort_unstable();
     all.dedup();
     for line in all {
-        let at = line as usize;
-        let body = &bodies.lines[at];
+        let body = &bodies.lines[line];
         before.push(Before {
             line,
-            kinetic: kinetic(body, bodies.velocity_before(at, h)),
+            kinetic: kinetic(body, bodies.velocity_before(line, h)),
             d: body.displacement(),
         });
     }
@@ -43,8 +43,8 @@ pub(crate) fn note(bodies: &Bodies, lines: &[[u32; 2]], h: f64, before: &mut Vec
 
 /// Where those two bodies of each arrival are in `before` that contacts move.
 pub(super) fn places(bodies: &Bodies, arrived: &[Arrival], before: &[Before]) -> Vec<Places> {
-    let place = |line: u32| {
-        let is_moved = bodies.lines[line as usize].inverse_mass() > 0.0;
+    let place = |line: LineIx| {
+        let is_moved = bodies.lines[line].inverse_mass() > 0.0;
         is_moved.then(|| place(before, line)).flatten()
     };
     let places = arrived.iter().map(|arrival| arrival.lines.map(place));
@@ -116,11 +116,11 @@ pub(super) fn keep(
 struct Pushed {
     group: usize,
     birth: u64,
-    line: u32,
+    line: LineIx,
     push: Quad,
 }
 
-fn place(before: &[Before], line: u32) -> Option<usize> {
+fn place(before: &[Before], line: LineIx) -> Option<usize> {
     before
         .binary_search_by_key(&line, |before| before.line)
         .ok()
@@ -130,9 +130,8 @@ fn place(before: &[Before], line: u32) -> Option<usize> {
 /// other islands.
 fn excess(bodies: &Bodies, group: &[Pushed], before: &[Before]) -> f64 {
     let (mut had, mut has, mut mixed, mut square) = (0.0, 0.0, 0.0, 0.0);
-    for Pushed { line, push, .. } in group {
-        let at = *line as usize;
-        let body = &bodies.lines[at];
+    for &Pushed { line, push, .. } in group {
+        let body = &bodies.lines[line];
         if body.inverse_mass() <= 0.0 {
             // Whatever drives a body may give energy.
             if body.v() != Vec2::ZERO || body.w().abs() > 0.0 {
@@ -140,14 +139,14 @@ fn excess(bodies: &Bodies, group: &[Pushed], before: &[Before]) -> f64 {
             }
             continue;
         }
-        let Some(known) = place(before, *line) else {
+        let Some(known) = place(before, line) else {
             return 0.0;
         };
         let came = &before[known];
         let mass = body.inverse_mass().recip();
         let turning = |x: f64| quotient(x, body.inverse_inertia());
         // What the pull did on the way of this sub-step.
-        let fell = mass * bodies.pull[at].v().dot(body.d() - came.d.v());
+        let fell = mass * bodies.pull[line].v().dot(body.d() - came.d.v());
         had += came.kinetic + fell;
         has += kinetic(body, (body.v(), body.w()));
         mixed += mass * push.v().dot(body.v()) + turning(push.w() * body.w());

@@ -10,7 +10,7 @@ use super::free::FreePairs;
 use super::graph::Graph;
 use super::law::Law;
 use crate::bodies::Bodies;
-use crate::{BodyIx, ContactIx};
+use crate::{BodyIx, ContactIx, LineIx};
 
 /// Contacts that are too deep for the sweeps.
 #[derive(Clone, Debug, Default)]
@@ -32,22 +32,22 @@ impl Deep {
         self.sums.resize(bodies.lines.len(), Vec2::ZERO);
         for moved in &self.moves {
             for (line, way) in moved.lines.into_iter().zip(moved.ways(bodies)) {
-                self.sums[line as usize] += way;
+                self.sums[line.at()] += way;
             }
         }
         for moved in &mut self.moves {
             let part = moved.lines.map(|line| {
-                let length = self.sums[line as usize].length();
+                let length = self.sums[line.at()].length();
                 if length > most { most / length } else { 1.0 }
             });
             moved.impulse *= part[0].min(part[1]);
             for (line, way) in moved.lines.into_iter().zip(moved.ways(bodies)) {
-                bodies.lines[line as usize].displace(way);
+                bodies.lines[line].displace(way);
             }
             tell(moved.id, moved.impulse);
         }
         for line in self.moves.iter().flat_map(|moved| moved.lines) {
-            self.sums[line as usize] = Vec2::ZERO;
+            self.sums[line.at()] = Vec2::ZERO;
         }
     }
 
@@ -86,7 +86,7 @@ impl Deep {
             }
             let (block, cold, lane) = graph.lane(id);
             let (at, bt) = (block.a[lane], block.b[lane]);
-            let [a, b] = [at, bt].map(|line| &bodies.lines[line as usize]);
+            let [a, b] = [at, bt].map(|line| &bodies.lines[line]);
             let n = block.normal(lane);
             let [first, second] = cold.gaps(block, lane, &bodies.lines);
             let gap = first.min(second);
@@ -127,7 +127,7 @@ impl Deep {
 #[derive(Clone, Copy, Debug)]
 struct Move {
     id: ContactIx,
-    lines: [u32; 2],
+    lines: [LineIx; 2],
     normal: Vec2,
     /// Mass times displacement of either body, in kg m.
     impulse: f64,
@@ -136,9 +136,7 @@ struct Move {
 impl Move {
     /// Displacements of both bodies.
     fn ways(&self, bodies: &Bodies) -> [Vec2; 2] {
-        let [a, b] = self
-            .lines
-            .map(|line| bodies.lines[line as usize].inverse_mass());
+        let [a, b] = self.lines.map(|line| bodies.lines[line].inverse_mass());
         [
             self.normal * (-self.impulse * a),
             self.normal * (self.impulse * b),

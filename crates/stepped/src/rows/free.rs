@@ -14,8 +14,8 @@ use carom_math::perp;
 use super::block::LANES;
 use super::graph::Graph;
 use super::turn_back::{Turn, turn_all};
-use crate::ContactIx;
 use crate::bodies::Bodies;
+use crate::{ContactIx, LineIx};
 
 /// The contacts of free pairs in a sub-step.
 #[derive(Clone, Debug, Default)]
@@ -32,7 +32,7 @@ pub(crate) struct FreePairs {
 struct FreeRow {
     /// Colour, block and lane.
     at: (usize, usize, usize),
-    lines: [u32; 2],
+    lines: [LineIx; 2],
     /// Impulses that displaced the bodies, along the normal and across, in N·s.
     along: f64,
     across: f64,
@@ -48,14 +48,14 @@ impl FreePairs {
         for (colour, c) in graph.awake().iter_mut().zip(0..) {
             for (block, k) in colour.blocks.iter_mut().zip(0..) {
                 for lane in 0..LANES {
-                    let lines = [block.a[lane], block.b[lane]];
+                    let lines = block.lines(lane);
                     if !lines.iter().all(|line| bodies.is_free(*line)) {
                         continue;
                     }
                     let [j1, j2, jt] = block.impulses(lane);
                     let (lever, height) = block.meet(lane, bodies);
                     let moment = lever * (j1 + j2) + height * jt;
-                    for at in lines.map(|line| line as usize) {
+                    for at in lines {
                         let turn = moment * bodies.lines[at].inverse_inertia();
                         bodies.start[at].0[2] -= turn;
                     }
@@ -150,7 +150,7 @@ impl FreeRow {
         let (colour, k, lane) = self.at;
         let n = graph.colours[colour].blocks[k].normal(lane);
         let push = n * along + perp(n) * across;
-        let [a, b] = self.lines.map(|line| &bodies.lines[line as usize]);
+        let [a, b] = self.lines.map(|line| &bodies.lines[line]);
         let v = b.v() - a.v();
         let began = v + push * (a.inverse_mass() + b.inverse_mass());
         Some(Turn {

@@ -6,7 +6,7 @@ use super::colour::Colour;
 use crate::bodies::{Bodies, BodyKind, number};
 use crate::ghost::Suspects;
 use crate::narrow::Manifold;
-use crate::{BodyIx, ContactIx, Entry, PieceIx, Surface};
+use crate::{BodyIx, ContactIx, Entry, LineIx, PieceIx, Surface};
 
 /// Colours of a mask. Contacts that find none of them free take the overflow colour, a block each, one after the other.
 pub(crate) const COLOURS: usize = 64;
@@ -112,7 +112,7 @@ impl Graph {
         let mut touched = Vec::new();
         for (colour, number) in self.colours[..self.awake_end()].iter().zip(0..) {
             for (Block { a, b, .. }, block) in colour.blocks.iter().zip(0..) {
-                let moved = |line: u32| bodies.moved[line as usize];
+                let moved = |line: LineIx| bodies.moved[line];
                 let lanes = a.iter().zip(b).zip(0..).fold(0, |lanes, ((a, b), lane)| {
                     lanes | u8::from(moved(*a) | moved(*b)) << lane
                 });
@@ -226,7 +226,7 @@ impl Graph {
         let contact = self.contacts[id];
         let (colour, (k, lane)) = (contact.colour as usize, contact.place());
         let block = &self.colours[colour].blocks[k];
-        let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
+        let [a, b] = block.lines(lane);
         self.clear_warm_start(bodies, id);
         self.unlink(bodies, id);
         for (slot, line) in contact.bodies.into_iter().zip([a, b]) {
@@ -310,7 +310,11 @@ impl Graph {
             } else {
                 &mut block.b
             };
-            end[lane] = if contact.sleeps() { 0 } else { line };
+            end[lane] = if contact.sleeps() {
+                LineIx::EMPTY
+            } else {
+                line
+            };
             at = contact.next[side];
         }
     }

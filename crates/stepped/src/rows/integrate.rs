@@ -11,8 +11,8 @@ use fearless_simd::{
 
 use super::line::{Line, Quad};
 use super::transpose::{Numbers, Wide, rows_of};
-use crate::Settings;
 use crate::bodies::{BEND, Bodies, FAST, Limit, number};
+use crate::{LineIx, Settings};
 
 /// Damping that leaves less than this of a velocity in a sub-step makes its change no smooth one. From 1/32 on the velocity at the end
 /// tells the way better than the trapezoid: of `v h` it tells f, the trapezoid `(1 + f)/2`, and the truth is `(1 − f)/(−ln f)`.
@@ -48,13 +48,13 @@ fn warm_start_all<S: Simd, const DAMPED: bool>(simd: S, bodies: &mut Bodies, h: 
 }
 
 /// `d += h v`; which bodies go far by that, and where they were.
-pub(crate) fn displace(level: Level, bodies: &mut Bodies, h: f64, far: &mut Vec<(u32, Quad)>) {
+pub(crate) fn displace(level: Level, bodies: &mut Bodies, h: f64, far: &mut Vec<(LineIx, Quad)>) {
     far.clear();
     dispatch!(level, simd => displace_all(simd, bodies, h, far));
 }
 
 #[inline(always)]
-fn displace_all<S: Simd>(simd: S, bodies: &mut Bodies, h: f64, far: &mut Vec<(u32, Quad)>) {
+fn displace_all<S: Simd>(simd: S, bodies: &mut Bodies, h: f64, far: &mut Vec<(LineIx, Quad)>) {
     let steps = f64x4::from_slice(simd, &[h, h, h, 0.0]);
     let (limits, last_limits) = bodies.limits.as_chunks::<4>();
     let (lines, last) = bodies.lines.as_chunks_mut::<4>();
@@ -66,7 +66,7 @@ fn displace_all<S: Simd>(simd: S, bodies: &mut Bodies, h: f64, far: &mut Vec<(u3
             let k = bits.trailing_zeros();
             bits &= bits - 1;
             let line = &lines[k as usize];
-            far.push((at + k, Quad::new(line.d(), line.turn())));
+            far.push((LineIx(at + k), Quad::new(line.d(), line.turn())));
         }
         for line in lines {
             let d = f64x4::from_slice(simd, &line.0[4..]);
@@ -79,7 +79,7 @@ fn displace_all<S: Simd>(simd: S, bodies: &mut Bodies, h: f64, far: &mut Vec<(u3
         let d = f64x4::from_slice(simd, &line.0[4..]);
         let step = steps * f64x4::from_slice(simd, &line.0[..4]);
         if limit.is_far(step[0] * step[0] + step[1] * step[1], step[2]) {
-            far.push((at, Quad::new(line.d(), line.turn())));
+            far.push((LineIx(at), Quad::new(line.d(), line.turn())));
         }
         (d + step).store_slice(&mut line.0[4..]);
     }
@@ -218,8 +218,8 @@ struct Span {
 
 /// Lines of bodies that may deviate, and that go far; how far beyond their boxes they may be.
 struct Seen<S: Simd> {
-    deviating: Vec<u32>,
-    speedy: Vec<u32>,
+    deviating: Vec<LineIx>,
+    speedy: Vec<LineIx>,
     beyond: f64x4<S>,
 }
 
@@ -300,10 +300,10 @@ fn damped<S: Simd>([f, part]: [f64x4<S>; 2], [start, v, pulled]: [f64x4<S>; 3]) 
 
 /// Adds those of the lines from `first` on that have a bit.
 #[inline(always)]
-fn note<S: Simd>(lanes: mask64x4<S>, first: u32, to: &mut Vec<u32>) {
+fn note<S: Simd>(lanes: mask64x4<S>, first: u32, to: &mut Vec<LineIx>) {
     let mut bits = lanes.to_bitmask();
     while bits != 0 {
-        to.push(first + bits.trailing_zeros());
+        to.push(LineIx(first + bits.trailing_zeros()));
         bits &= bits - 1;
     }
 }

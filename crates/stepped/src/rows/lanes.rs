@@ -95,14 +95,10 @@ impl Graph {
     }
 
     /// Place of a contact in an order that memory does not change: by births of its bodies, then by pieces.
-    pub(crate) fn order(
-        &self,
-        bodies: &Bodies,
-        id: ContactIx,
-    ) -> ([u64; 2], [PieceIx; 2], ContactIx) {
+    pub(crate) fn order(&self, bodies: &Bodies, id: ContactIx) -> ([u64; 2], [PieceIx; 2]) {
         let contact = &self.contacts[id];
         let birth = |slot: BodyIx| bodies.records[slot].birth;
-        (contact.bodies.map(birth), contact.pieces, id)
+        (contact.bodies.map(birth), contact.pieces)
     }
 
     /// Puts contacts in [`Self::order`], each once.
@@ -119,7 +115,7 @@ impl Graph {
             if self.cold(id).is_some_and(|(cold, lane)| cold.was_put(lane)) {
                 displaced.resize(bodies.lines.len(), false);
                 let (block, _, lane) = self.lane(id);
-                for line in [block.a[lane] as usize, block.b[lane] as usize] {
+                for line in block.lines(lane) {
                     displaced[line] = bodies.lines[line].inverse_mass() > 0.0;
                 }
             }
@@ -169,7 +165,7 @@ impl Graph {
     /// Lets a contact start the next sub-step without impulses; velocities stay.
     pub(crate) fn clear_warm_start(&mut self, bodies: &mut Bodies, id: ContactIx) {
         let (block, lane) = self.block_mut(id);
-        let (a, b) = (block.a[lane] as usize, block.b[lane] as usize);
+        let [a, b] = block.lines(lane);
         let [push_a, push_b] = block.push(lane, &bodies.lines);
         bodies.start[a].add(&push_a);
         bodies.start[b].add(&push_b);

@@ -50,7 +50,7 @@ pub(crate) fn row(
 ) -> f64 {
     let mut heat = 0.0;
     let bias = pass == Pass::Solve;
-    let (ia, ib) = (block.a[lane] as usize, block.b[lane] as usize);
+    let (ia, ib) = (block.a[lane].at(), block.b[lane].at());
     let Line([mut avx, mut avy, mut aw, ma, adx, ady, aturn, i_a]) = lines[ia];
     let Line([mut bvx, mut bvy, mut bw, mb, bdx, bdy, bturn, i_b]) = lines[ib];
     let (nx, ny) = (block.nx[lane], block.ny[lane]);

@@ -13,8 +13,8 @@ use super::bounce::Bounce;
 use super::bounce_budget::{Before, Places, keep, note, places};
 use super::graph::Graph;
 use super::law::Law;
-use crate::ContactIx;
 use crate::bodies::Bodies;
+use crate::{ContactIx, LineIx};
 
 /// Pull over so many sub-steps is rest. Less: piles with restitution hum; more: low bounces end early.
 pub(crate) const REST: f64 = 2.0;
@@ -26,7 +26,7 @@ const SWEEPS: usize = 8;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrival {
     pub(crate) contact: ContactIx,
-    pub(super) lines: [u32; 2],
+    pub(super) lines: [LineIx; 2],
     /// Speed of the faster point, in m/s, and when the first one is met, in s from the beginning of the sub-step on.
     pub(crate) speed: f64,
     pub(crate) met: f64,
@@ -76,12 +76,12 @@ fn arrival(
     bodies: &Bodies,
     (block, cold, lane): (&Block, &Cold, usize),
 ) -> Option<Arrival> {
-    let lines = [block.a[lane], block.b[lane]];
+    let lines = block.lines(lane);
     let v = block.opening(lane, &bodies.lines);
     if v[0].min(v[1]) >= -least {
         return None;
     }
-    let [pull_a, pull_b] = lines.map(|line| bodies.pull[line as usize].v());
+    let [pull_a, pull_b] = lines.map(|line| bodies.pull[line].v());
     let pull = block.normal(lane).dot(pull_b - pull_a);
     let gaps = block.gaps(lane, &bodies.lines);
     let mut arrival = Arrival {
@@ -111,10 +111,10 @@ fn arrival(
 
 /// See [`Block::meet`].
 fn meet(block: &mut Block, lane: usize, bodies: &Bodies) {
-    let ends = [block.a[lane], block.b[lane]];
+    let ends = block.lines(lane);
     if ends
         .iter()
-        .all(|line| bodies.lines[*line as usize].inverse_mass() > 0.0)
+        .all(|line| bodies.lines[*line].inverse_mass() > 0.0)
     {
         block.meet(lane, bodies);
     }

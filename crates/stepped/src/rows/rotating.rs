@@ -50,11 +50,11 @@ pub(crate) struct Side {
 
 impl RotatingRows {
     /// Keeps the rows of contacts that are not recomputed in this update.
-    pub(crate) fn retain(&mut self, graph: &Graph, moved: &[bool]) {
+    pub(crate) fn retain(&mut self, graph: &Graph, bodies: &Bodies) {
         self.rows.retain(|row| {
             graph.has(row.contact, row.pieces) && {
                 let (block, _, lane) = graph.lane(row.contact);
-                !(moved[block.a[lane] as usize] || moved[block.b[lane] as usize])
+                !(bodies.moved[block.a[lane]] || bodies.moved[block.b[lane]])
             }
         });
     }
@@ -68,7 +68,7 @@ impl RotatingRows {
         (bodies, side): (&Bodies, Side),
         (tick, extent): (f64, f64),
     ) {
-        let [a, b] = [block.a[lane], block.b[lane]].map(|line| &bodies.lines[line as usize]);
+        let [a, b] = block.lines(lane).map(|line| &bodies.lines[line]);
         let seen = Seen::of(block, lane, b.d() - a.d());
         let opening = block.opening(lane, &bodies.lines);
         let closes = opening.map(|rate| (-rate * tick).max(0.0));
@@ -95,7 +95,7 @@ impl RotatingRows {
                 // A ghost collision was hidden.
                 continue;
             }
-            let ends = [block.a[lane], block.b[lane]].map(|line| line as usize);
+            let ends = block.lines(lane);
             let before = block.push(lane, &bodies.lines);
             let went = ends.map(|line| (bodies.lines[line].d(), bodies.lines[line].turn()));
             let turned = row.seen.turned(row.side, went);

@@ -7,7 +7,7 @@ use carom_math::vec2;
 use super::kernel::{Pass, sweep};
 use super::{Quad, correct, plain};
 use crate::tests::{Random, floor, levels};
-use crate::{Engine, Mixed, Settings};
+use crate::{Engine, LineIx, Mixed, Settings};
 
 #[test]
 fn all_widths_have_the_bits_of_the_plain_sweep() {
@@ -66,7 +66,7 @@ fn all_widths_note_the_bodies_that_deviate_or_go_far_one_by_one() {
             engine.insert(body, &[piece]).unwrap();
         }
         let bodies = &mut engine.bodies;
-        for at in 2..bodies.lines.len() {
+        for at in bodies.awake() {
             let speed = [0.1, 3.0, 60.0][random.below(3)];
             let v = vec2(random.signed(), random.signed()) * speed;
             let w = random.signed() * speed;
@@ -80,8 +80,8 @@ fn all_widths_note_the_bodies_that_deviate_or_go_far_one_by_one() {
         for level in levels() {
             let mut bodies = engine.bodies.clone();
             correct(level, &mut bodies, &settings, h, rest);
-            let lines = 2..bodies.lines.len();
-            let deviates = |at: &usize| {
+            let lines = bodies.awake();
+            let deviates = |at: &LineIx| {
                 let (line, then, limit) = (
                     &bodies.lines[*at],
                     &bodies.foreseen[*at],
@@ -91,17 +91,16 @@ fn all_widths_note_the_bodies_that_deviate_or_go_far_one_by_one() {
                 let off = off.x.max(off.y) + (line.w() - then.w()).abs() * limit.reach;
                 limit.deviates(settings.margin, off * rest, line.turn())
             };
-            let goes_far = |at: &usize| {
+            let goes_far = |at: &LineIx| {
                 let (line, limit) = (&bodies.lines[*at], &bodies.limits[*at]);
                 limit.is_far((line.v() * h).length_squared(), line.w() * h)
             };
-            let noted = |list: &[u32]| list.iter().map(|at| *at as usize).collect::<Vec<_>>();
-            let expected: Vec<usize> = lines.clone().filter(deviates).collect();
-            assert_eq!(noted(&bodies.deviating), expected, "{count}, {level:?}");
-            let expected: Vec<usize> = lines.clone().filter(goes_far).collect();
+            let expected: Vec<LineIx> = lines.clone().filter(deviates).collect();
+            assert_eq!(bodies.deviating, expected, "{count}, {level:?}");
+            let expected: Vec<LineIx> = lines.clone().filter(goes_far).collect();
             let speedy = bodies.speedy.as_deref().unwrap_or_default();
-            assert_eq!(noted(speedy), expected, "{count}, {level:?}");
-            all += lines.len();
+            assert_eq!(speedy, expected, "{count}, {level:?}");
+            all += lines.count();
             deviate += bodies.deviating.len();
             far += expected.len();
         }

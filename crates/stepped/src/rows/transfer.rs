@@ -2,8 +2,8 @@
 
 use super::block::LANES;
 use super::graph::{ASLEEP, COLOURS, Contact, FIRST_HARD, Graph, HARD};
-use crate::ContactIx;
 use crate::bodies::{Bodies, BodyKind, number};
+use crate::{ContactIx, LineIx};
 
 impl Contact {
     pub(crate) const fn sleeps(&self) -> bool {
@@ -42,7 +42,7 @@ impl Graph {
     pub(crate) fn shift(&mut self, bodies: &mut Bodies, id: ContactIx, sleeps: bool) {
         let contact = self.contacts[id];
         let (to, lines, home) = if sleeps {
-            (ASLEEP, [0; 2], contact.colour)
+            (ASLEEP, [LineIx::EMPTY; 2], contact.colour)
         } else {
             let lines = contact.bodies.map(|slot| bodies.records[slot].line);
             (contact.home as usize, lines, contact.home)
@@ -71,14 +71,14 @@ impl Graph {
         let contact = self.contacts[id];
         if contact.is_hard() != hard {
             let (block, _, lane) = self.lane(id);
-            let lines = [block.a[lane], block.b[lane]];
+            let lines = block.lines(lane);
             let to = soft(contact.colour) as usize + if hard { HARD } else { 0 };
             self.transfer(id, to, lines);
         }
     }
 
     /// Moves a contact to another colour, with all its fields.
-    fn transfer(&mut self, id: ContactIx, to: usize, lines: [u32; 2]) {
+    fn transfer(&mut self, id: ContactIx, to: usize, lines: [LineIx; 2]) {
         let contact = self.contacts[id];
         let (from, (k, lane)) = (contact.colour as usize, contact.place());
         let row = self.colours[from].copy(k, lane);

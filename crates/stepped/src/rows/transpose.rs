@@ -2,6 +2,7 @@
 
 #![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
 
+use crate::LineIx;
 use fearless_simd::{
     ExtractToken, Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, SimdSplit, f64x4, f64x8,
 };
@@ -24,13 +25,13 @@ pub(crate) trait Wide<S: Simd>: SimdFloat<S, Element = f64> {
     const LANES: usize;
 
     /// Four columns of the rows that begin at number `from` of each.
-    fn columns<L: Numbers>(simd: S, list: &[L], at: &[u32], from: usize) -> [Self; 4];
+    fn columns<L: Numbers>(simd: S, list: &[L], at: &[LineIx], from: usize) -> [Self; 4];
 
     /// The same of these.
     fn columns_of<L: Numbers>(simd: S, of: &[&L], from: usize) -> [Self; 4];
 
     /// Writes four columns back to the first rows.
-    fn write<L: NumbersMut>(list: &mut [L], at: &[u32], columns: [Self; 4]);
+    fn write<L: NumbersMut>(list: &mut [L], at: &[LineIx], columns: [Self; 4]);
 }
 
 /// Whether a lane of a mask is set.
@@ -43,10 +44,10 @@ impl<S: Simd> Wide<S> for f64x4<S> {
     const LANES: usize = 4;
 
     #[inline(always)]
-    fn columns<L: Numbers>(simd: S, list: &[L], at: &[u32], from: usize) -> [Self; 4] {
-        let at: &[u32; 4] = at.first_chunk().expect("four lanes");
-        let (l0, l1) = (&list[at[0] as usize], &list[at[1] as usize]);
-        let (l2, l3) = (&list[at[2] as usize], &list[at[3] as usize]);
+    fn columns<L: Numbers>(simd: S, list: &[L], at: &[LineIx], from: usize) -> [Self; 4] {
+        let at: &[LineIx; 4] = at.first_chunk().expect("four lanes");
+        let (l0, l1) = (&list[at[0].at()], &list[at[1].at()]);
+        let (l2, l3) = (&list[at[2].at()], &list[at[3].at()]);
         Self::columns_of(simd, &[l0, l1, l2, l3], from)
     }
 
@@ -61,13 +62,13 @@ impl<S: Simd> Wide<S> for f64x4<S> {
     }
 
     #[inline(always)]
-    fn write<L: NumbersMut>(list: &mut [L], at: &[u32], columns: [Self; 4]) {
-        let at: &[u32; 4] = at.first_chunk().expect("four lanes");
+    fn write<L: NumbersMut>(list: &mut [L], at: &[LineIx], columns: [Self; 4]) {
+        let at: &[LineIx; 4] = at.first_chunk().expect("four lanes");
         let [l0, l1, l2, l3] = turned(columns[0].token(), columns);
-        l0.store_slice(list[at[0] as usize].first());
-        l1.store_slice(list[at[1] as usize].first());
-        l2.store_slice(list[at[2] as usize].first());
-        l3.store_slice(list[at[3] as usize].first());
+        l0.store_slice(list[at[0].at()].first());
+        l1.store_slice(list[at[1].at()].first());
+        l2.store_slice(list[at[2].at()].first());
+        l3.store_slice(list[at[3].at()].first());
     }
 }
 
@@ -75,7 +76,7 @@ impl<S: Simd> Wide<S> for f64x8<S> {
     const LANES: usize = 8;
 
     #[inline(always)]
-    fn columns<L: Numbers>(simd: S, list: &[L], at: &[u32], from: usize) -> [Self; 4] {
+    fn columns<L: Numbers>(simd: S, list: &[L], at: &[LineIx], from: usize) -> [Self; 4] {
         let low = <f64x4<S> as Wide<S>>::columns(simd, list, &at[..4], from);
         let high = <f64x4<S> as Wide<S>>::columns(simd, list, &at[4..], from);
         let ([x, y, z, w], [p, q, r, s]) = (low, high);
@@ -91,7 +92,7 @@ impl<S: Simd> Wide<S> for f64x8<S> {
     }
 
     #[inline(always)]
-    fn write<L: NumbersMut>(list: &mut [L], at: &[u32], [x, y, z, w]: [Self; 4]) {
+    fn write<L: NumbersMut>(list: &mut [L], at: &[LineIx], [x, y, z, w]: [Self; 4]) {
         let ((x, p), (y, q), (z, r), (w, s)) = (x.split(), y.split(), z.split(), w.split());
         f64x4::write(list, &at[..4], [x, y, z, w]);
         f64x4::write(list, &at[4..], [p, q, r, s]);

@@ -10,13 +10,14 @@
 use carom_math::{Vec2, perp};
 
 use super::line::Quad;
+use crate::LineIx;
 use crate::bodies::Bodies;
 use crate::groups::Groups;
 
 /// How a pair turns back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
-    pub(super) lines: [u32; 2],
+    pub(super) lines: [LineIx; 2],
     /// What it is to have more of angular momentum, in N·m·s.
     pub(super) moment: f64,
     /// The square of the greatest speed that B may have against A, in m²/s².
@@ -25,7 +26,7 @@ pub(super) struct Turn {
 
 /// Turns pairs, one after the other: all moments are those of the velocities that the displacements came with.
 pub(super) fn turn_all(bodies: &mut Bodies, turns: &[Turn]) {
-    let mut rests: Vec<([u32; 2], f64)> = Vec::new();
+    let mut rests: Vec<([LineIx; 2], f64)> = Vec::new();
     for turn in turns {
         let rest = turn_pair(bodies, turn);
         if rest != 0.0 && !spin_pair(bodies, turn, rest) {
@@ -36,12 +37,12 @@ pub(super) fn turn_all(bodies: &mut Bodies, turns: &[Turn]) {
         return;
     }
     // Sums are in the order of births, since lines and lanes depend on other islands.
-    let birth = |line: u32| bodies.birth_of_line(line);
+    let birth = |line: LineIx| bodies.birth_of_line(line);
     rests.sort_by_key(|(lines, _)| lines.map(birth));
-    let mut lines: Vec<u32> = turns.iter().flat_map(|turn| turn.lines).collect();
+    let mut lines: Vec<LineIx> = turns.iter().flat_map(|turn| turn.lines).collect();
     lines.sort_unstable_by_key(|line| birth(*line));
     lines.dedup();
-    let place = |line: u32| lines.partition_point(|known| birth(*known) < birth(line));
+    let place = |line: LineIx| lines.partition_point(|known| birth(*known) < birth(line));
     let mut groups = Groups::new(lines.len());
     for turn in turns {
         let [a, b] = turn.lines.map(place);
@@ -62,11 +63,11 @@ pub(super) fn turn_all(bodies: &mut Bodies, turns: &[Turn]) {
 /// Turns the velocity of B against A so that both have the moment more. It is as long as before, or as what displaced them if that was
 /// faster and no turn is enough, and on which side of the line between both it points stays. What no turn gives, in N·m·s.
 fn turn_pair(bodies: &mut Bodies, turn: &Turn) -> f64 {
-    let [a, b] = turn.lines.map(|line| line as usize);
+    let [a, b] = turn.lines;
     let (first, second) = (&bodies.lines[a], &bodies.lines[b]);
     let (ma, mb) = (first.inverse_mass(), second.inverse_mass());
-    let centre = |at: usize| bodies.base[at].position + bodies.lines[at].d();
-    let (arm, v) = (centre(b) - centre(a), second.v() - first.v());
+    let arm = bodies.centre_at(b) - bodies.centre_at(a);
+    let v = second.v() - first.v();
     // By which arm × v is to change.
     let more = turn.moment * (ma + mb);
     let square = arm.length_squared();
@@ -98,7 +99,7 @@ fn turn_pair(bodies: &mut Bodies, turn: &Turn) -> f64 {
 /// Gives the spins of a pair a moment, in N·m·s, unless they had more energy by it than such a speed of B against A has; whether it does.
 fn spin_pair(bodies: &mut Bodies, turn: &Turn, moment: f64) -> bool {
     let (mut inertia, mut turns, mut inverse_mass) = (0.0, 0.0, 0.0);
-    for line in turn.lines.map(|line| &bodies.lines[line as usize]) {
+    for line in turn.lines.map(|line| &bodies.lines[line]) {
         let own = line.inertia();
         inertia += own;
         turns += own * line.w();
@@ -111,7 +112,7 @@ fn spin_pair(bodies: &mut Bodies, turn: &Turn, moment: f64) -> bool {
     let energy = (turns + 0.5 * moment) * spin;
     let gives = energy <= 0.5 * turn.limit / inverse_mass;
     for line in turn.lines.into_iter().filter(|_| gives) {
-        if bodies.lines[line as usize].inverse_inertia() > 0.0 {
+        if bodies.lines[line].inverse_inertia() > 0.0 {
             bodies.push(line, &Quad::new(Vec2::ZERO, spin));
         }
     }
@@ -119,22 +120,20 @@ fn spin_pair(bodies: &mut Bodies, turn: &Turn, moment: f64) -> bool {
 }
 
 /// Bodies turn as one by what gives them a moment more, in N·m·s, and move as much slower against each other as their energy asks for.
-fn turn_as_one(bodies: &mut Bodies, group: &[u32], moment: f64) {
-    let lines = || group.iter().map(|line| *line as usize);
-    let centre = |bodies: &Bodies, at: usize| bodies.base[at].position + bodies.lines[at].d();
+fn turn_as_one(bodies: &mut Bodies, group: &[LineIx], moment: f64) {
     let (mut mass, mut middle, mut pushes) = (0.0, Vec2::ZERO, Vec2::ZERO);
-    for at in lines() {
+    for &at in group {
         let m = 1.0 / bodies.lines[at].inverse_mass();
         mass += m;
-        middle += centre(bodies, at) * m;
+        middle += bodies.centre_at(at) * m;
         pushes += bodies.lines[at].v() * m;
     }
     let (middle, mean) = (middle / mass, pushes / mass);
     // Angular momentum and moment of inertia about it, and twice the kinetic energy.
     let (mut turns, mut whole, mut energy) = (0.0, 0.0, 0.0);
-    for at in lines() {
+    for &at in group {
         let line = &bodies.lines[at];
-        let (arm, v) = (centre(bodies, at) - middle, line.v() - mean);
+        let (arm, v) = (bodies.centre_at(at) - middle, line.v() - mean);
         let mut add = |inertia: f64, spin: f64, square: f64| {
             turns += inertia * spin;
             whole += inertia * square;
@@ -157,8 +156,8 @@ fn turn_as_one(bodies: &mut Bodies, group: &[u32], moment: f64) {
     let (left, against) = (energy - whole * spin * spin, energy - whole * own * own);
     let part = (left / against).max(0.0).sqrt().min(1.0);
     for &at in group {
-        let arm = centre(bodies, at as usize) - middle;
-        let line = &bodies.lines[at as usize];
+        let arm = bodies.centre_at(at) - middle;
+        let line = &bodies.lines[at];
         let v = (line.v() - mean - perp(arm) * own) * part + perp(arm) * spin;
         let turns = line.inverse_inertia() > 0.0;
         let w = if turns {

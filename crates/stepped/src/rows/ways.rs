@@ -4,8 +4,8 @@ use carom_math::Vec2;
 
 use super::line::{Line, Quad, quotient};
 use super::shifted::Shifted;
-use crate::BodyIx;
 use crate::bodies::Bodies;
+use crate::{BodyIx, LineIx};
 
 /// Velocities with which free bodies went through the last sub-step: all impulses acted as it began, and what displaced the bodies and
 /// does not last counts. With them momentum and angular momentum are those of before and afterwards.
@@ -73,14 +73,15 @@ impl Ways {
 
     /// Bodies have their velocities and displacements of the end of the sub-step, which lasts `h` seconds.
     pub(crate) fn end(&mut self, bodies: &Bodies, h: f64) {
-        for ((line, (v, to)), at) in bodies.lines.iter().zip(&self.displaced).zip(0..) {
+        for (at, (v, to)) in (0..).map(LineIx).zip(&self.displaced) {
             if bodies.is_free(at) {
+                let line = &bodies.lines[at];
                 let (way, turn) = (line.d() - to.v(), line.turn() - to.w());
                 let lack = Lack {
                     begin: Quad::new(line.v() - v.v() - way / h, line.w() - v.w() - turn / h),
                     ..Lack::default()
                 };
-                self.lack.push((bodies.slot_of[at as usize], lack));
+                self.lack.push((bodies.slot_of[at], lack));
             }
         }
         self.lack.sort_unstable_by_key(|lack| lack.0);
@@ -88,8 +89,8 @@ impl Ways {
 
     /// Continuous collision `shifted` free bodies, and `added` to their velocities what gives their angular momentum back. On the way
     /// they go elsewhere than their velocities tell: the spins of both of a pair change evenly by what that adds.
-    pub(crate) fn shift(&mut self, bodies: &Bodies, added: &[(u32, Quad)], shifted: &[Shifted]) {
-        let slot = |line: u32| bodies.slot_of[line as usize];
+    pub(crate) fn shift(&mut self, bodies: &Bodies, added: &[(LineIx, Quad)], shifted: &[Shifted]) {
+        let slot = |line: LineIx| bodies.slot_of[line];
         for (line, added) in added {
             if let Some(lack) = self.lack_mut(slot(*line)) {
                 lack.begin.add(added);
@@ -98,7 +99,7 @@ impl Ways {
         for (lines, shifts) in shifted {
             let (mut sum, mut inertia) = (0.0, 0.0);
             for (line, shift) in lines.iter().zip(shifts) {
-                let known = &bodies.lines[*line as usize];
+                let known = &bodies.lines[*line];
                 inertia += known.inertia();
                 if let Some(lack) = self.lack_mut(slot(*line)) {
                     let v = known.v() - lack.begin.v();
@@ -108,7 +109,7 @@ impl Ways {
                 }
             }
             for line in lines {
-                let turns = bodies.lines[*line as usize].inverse_inertia() > 0.0;
+                let turns = bodies.lines[*line].inverse_inertia() > 0.0;
                 if let Some(lack) = self.lack_mut(slot(*line)).filter(|_| turns) {
                     lack.twist += sum / inertia;
                 }

@@ -211,7 +211,7 @@ fn free_pairs_meet_at_one_point() {
         graph.check(bodies);
         for id in graph.ids() {
             let (block, _, lane) = graph.lane(id);
-            let ends = [block.a[lane], block.b[lane]].map(|line| line as usize);
+            let ends = block.lines(lane).map(|line| line);
             let [a, b] = ends.map(|at| bodies.base[at].position + bodies.lines[at].d());
             let n = block.normal(lane);
             let lever = (a - b).perp_dot(n) - (block.b1[lane] - block.a1[lane]);

@@ -6,7 +6,7 @@ use carom_math::{Vec2, vec2};
 use super::{Random, levels};
 use crate::narrow::{Eight, Found, Manifold, Scene, collide_eight, naive};
 use crate::rows::LANES;
-use crate::{Engine, PieceInput, PieceIx, Settings};
+use crate::{Engine, LineIx, PieceInput, PieceIx, Settings};
 
 /// Bodies of all kinds of outlines close together, a tick old: away from their base poses.
 fn random_bodies(seed: u64, spread: f64) -> Engine {
@@ -43,9 +43,9 @@ fn pairs(scene: &Scene<'_>) -> Vec<[PieceIx; 2]> {
 }
 
 fn eight<'a>(scene: &Scene<'a>, pairs: &[[PieceIx; 2]]) -> Eight<'a> {
-    let mut eight = Eight::new(scene.pieces, [[0; LANES]; 2]);
+    let mut eight = Eight::new(scene.pieces, [[LineIx::EMPTY; LANES]; 2]);
     for (lane, pair) in pairs.iter().enumerate() {
-        assert!(eight.set_pieces(scene.pieces, lane, *pair));
+        assert!(eight.set(scene.pieces, lane, *pair));
         let body = |piece: PieceIx| scene.pieces.list[piece].body;
         let line = |piece: PieceIx| scene.bodies.records[body(piece)].line;
         (eight.lines[0][lane], eight.lines[1][lane]) = (line(pair[0]), line(pair[1]));

@@ -1,5 +1,6 @@
 //! What must hold of the graph between all calls.
 
+use crate::LineIx;
 use crate::bodies::Bodies;
 use crate::rows::Quad;
 use crate::rows::block::LANES;
@@ -19,23 +20,23 @@ impl Graph {
                 let mut seen = Vec::new();
                 for lane in 0..LANES {
                     if cold.used >> lane & 1 == 0 {
-                        assert_eq!((block.a[lane], block.b[lane]), (0, 0));
+                        assert_eq!(block.lines(lane), [LineIx::EMPTY; 2]);
                         continue;
                     }
                     count += 1;
                     let contact = &self.contacts[cold.contact[lane]];
                     assert_eq!((contact.colour as usize, contact.place()), (c, (k, lane)));
                     assert_eq!(contact.pieces, cold.pieces[lane]);
-                    let lines = [block.a[lane], block.b[lane]];
+                    let lines = block.lines(lane);
                     if c == ASLEEP {
-                        assert_eq!(lines, [0, 0]);
+                        assert_eq!(lines, [LineIx::EMPTY; 2]);
                         continue;
                     }
                     let pushes = block.push(lane, &bodies.lines);
                     for side in [0, 1] {
                         let slot = contact.bodies[side];
                         assert_eq!(bodies.records[slot].line, lines[side]);
-                        sums[lines[side] as usize].add(&pushes[side]);
+                        sums[lines[side]].add(&pushes[side]);
                         if bodies.is_dynamic(slot) {
                             assert!(!seen.contains(&slot), "body {slot:?} twice in a block");
                             seen.push(slot);
