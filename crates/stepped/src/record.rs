@@ -21,7 +21,7 @@ pub(crate) struct Record {
     pub(crate) count: u32,
     /// Counts insertions: the order of bodies that recycled slots cannot change.
     pub(crate) birth: u64,
-    /// Which update of contacts was the next when it was put where it is or was: see [`Bodies::updates`].
+    /// Which update of contacts was the next when it was put where it is or was: see [`Bodies::updates`](crate::bodies::Bodies::updates).
     pub(crate) placed: u64,
     /// Head of the list of its contacts.
     pub(crate) contacts: Entry,

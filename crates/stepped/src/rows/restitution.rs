@@ -111,11 +111,8 @@ fn arrival(
 
 /// See [`Block::meet`].
 fn meet(block: &mut Block, lane: usize, bodies: &Bodies) {
-    let ends = block.lines(lane);
-    if ends
-        .iter()
-        .all(|line| bodies.lines[*line].inverse_mass() > 0.0)
-    {
+    let is_moved = |line: LineIx| bodies.lines[line].inverse_mass() > 0.0;
+    if block.lines(lane).into_iter().all(is_moved) {
         block.meet(lane, bodies);
     }
 }
