@@ -17,6 +17,12 @@ struct Carom {
 }
 
 pub(super) fn open(scene: &PlainScene, setup: &Setup) -> Result<Box<dyn Engine>, EngineError> {
+    if setup.threads != 1 {
+        return Err(EngineError::Threads {
+            engine: "carom".to_owned(),
+            threads: setup.threads,
+        });
+    }
     let mut world = World::new(settings(scene, setup)).map_err(|error| EngineError::Settings {
         engine: "carom".to_owned(),
         reason: error.to_string(),
@@ -61,7 +67,6 @@ fn settings(scene: &PlainScene, setup: &Setup) -> Settings {
             _ => carom_dynamics::Mode::Hybrid,
         },
         sleep: setup.sleeping.then(Sleep::default),
-        threads: setup.threads as usize,
         ..default
     }
 }
