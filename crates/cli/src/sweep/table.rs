@@ -141,7 +141,8 @@ const LARGEST: u64 = 1 << 32;
 
 /// A new file with a heading, locked.
 fn begin(part: &Path, heading: &str) -> Result<File, Failure> {
-    let begun = OpenOptions::new().write(true).create_new(true).open(part);
+    // Appended to: over a table that was cut behind its back a row would leave a hole of the length that is expected.
+    let begun = OpenOptions::new().append(true).create_new(true).open(part);
     let mut file = lock(part, begun)?;
     writeln!(file, "{heading}").map_err(|error| cannot("write", part, &error))?;
     Ok(file)
