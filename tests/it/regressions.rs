@@ -73,6 +73,7 @@ mod no_event_lies_before_its_step;
 mod nothing_falls_through_the_wall_of_a_turning_drum;
 mod nothing_leaves_a_spinning_ring_through_its_seams;
 mod parts_that_land_together_do_not_turn;
+mod stepped_mode_tells_what_impacts_took;
 mod strong_damping_in_a_field_takes_no_longer;
 mod the_far_end_of_a_capsule_strikes;
 mod tips_that_meet_do_not_spin;

@@ -429,7 +429,7 @@ impl Engine {
         let gap = hard.part(law, bodies, (graph, free), settings, true);
         free.turn_back_late(graph, bodies, law.h);
         impacts.note_hits(law, bodies, graph, true);
-        impacts.add_rows(arrived, bodies, graph);
+        impacts.add_rows(law, arrived, bodies, graph);
         let [heat, given] = bounce(bodies, graph, arrived, before);
         self.heat += heat;
         self.belts += given;

@@ -10,7 +10,7 @@ use carom_math::{Vec2, perp};
 
 use crate::bodies::{Bodies, number};
 use crate::pieces::Pieces;
-use crate::rows::{Arrival, Block, Colour, Graph, Law, REST, lanes};
+use crate::rows::{Arrival, Block, Cold, Colour, Graph, Law, REST, lanes};
 use crate::{BodyId, BodyIx, ContactIx, Engine, LineIx, PieceIx};
 
 /// A run goes on for so many sub-steps at most: what is pressed on for longer lies there.
@@ -53,7 +53,17 @@ struct Run {
     weight: f64,
     normal: Vec2,
     moment: Vec2,
+    /// Speeds with which its points opened before this sub-step, and the slip, in m/s, once they are known; and in it the impulses
+    /// so far, and the heat of friction, which is told elsewhere, in J.
+    came: Option<[f64; 3]>,
+    did: [f64; 3],
+    heat: f64,
+    /// What it took beside that heat, in J.
+    lost: f64,
 }
+
+/// The rows of a contact: its block, and its lane there.
+type Row<'r> = (&'r Block, &'r Cold, usize);
 
 /// Impacts that go on, and those that ended.
 #[derive(Clone, Debug, Default)]
@@ -64,6 +74,8 @@ pub(crate) struct Impacts {
     /// Where the run of each contact is, if it has one: by number.
     of_contact: Vec<u32>,
     ended: Vec<Impact>,
+    /// What impacts that ended took beside the heat of friction, in J.
+    pub(crate) lost: f64,
     /// Scratch.
     new: Vec<ContactIx>,
 }
@@ -124,6 +136,10 @@ impl Impacts {
                 weight: 0.0,
                 normal: Vec2::ZERO,
                 moment: Vec2::ZERO,
+                came: None,
+                did: [0.0; 3],
+                heat: 0.0,
+                lost: 0.0,
             });
         }
     }
@@ -137,11 +153,16 @@ impl Impacts {
     }
 
     /// Adds what the rows did in this sub-step of what will bounce, which clears them.
-    pub(crate) fn add_rows(&mut self, arrived: &[Arrival], bodies: &Bodies, graph: &Graph) {
+    pub(crate) fn add_rows(
+        &mut self,
+        law: &Law,
+        arrived: &[Arrival],
+        bodies: &Bodies,
+        graph: &Graph,
+    ) {
         for arrival in arrived {
             if let Some(run) = self.run_of(arrival.contact, graph) {
-                let (block, _, lane) = graph.lane(arrival.contact);
-                run.add(bodies, graph, block.impulses(lane));
+                run.add_rows(law, bodies, graph.lane(arrival.contact));
             }
         }
     }
@@ -160,24 +181,24 @@ impl Impacts {
         }
         for arrival in arrived {
             if let Some(run) = self.run_of(arrival.contact, graph) {
-                run.add(bodies, graph, arrival.impulses);
+                run.add(bodies, graph.lane(arrival.contact), arrival.impulses);
+                run.heat += arrival.heat;
             }
         }
         let least = REST * law.h * law.gravity;
         let mut over = Vec::new();
         let (of_contact, mut stay) = (&mut self.of_contact, 0);
         self.runs.retain_mut(|run| {
-            run.age += 1;
             let there = graph.has(run.contact, run.pieces);
-            let closes = there && {
-                let (block, _, lane) = graph.lane(run.contact);
-                run.add(bodies, graph, block.impulses(lane));
-                let (v, gaps) = (
-                    block.opening(lane, &bodies.lines),
-                    block.gaps(lane, &bodies.lines),
-                );
+            let row = there.then(|| graph.lane(run.contact));
+            let closes = row.is_some_and(|row| {
+                run.add_rows(law, bodies, row);
+                let (block, _, lane) = row;
+                let gaps = block.gaps(lane, &bodies.lines);
+                let v = run.lose(least, bodies, row, gaps);
                 (0..block.points(lane)).any(|k| v[k] < -least && gaps[k] + 2.0 * v[k] * law.h < 0.0)
-            };
+            });
+            run.age += 1;
             let goes_on = closes && run.age < LONGEST;
             if goes_on {
                 of_contact[run.contact.at()] = stay;
@@ -200,6 +221,8 @@ impl Impacts {
             let weight: f64 = runs.iter().map(|run| run.weight).sum();
             let normal = sum(|run| run.normal);
             let (normal, impulse) = (normal / normal.length(), sum(|run| run.impulse));
+            // None gives energy: what it seems to is an error.
+            self.lost += runs.iter().map(|run| run.lost).sum::<f64>().max(0.0);
             let since = |run: &Run| f64::from(run.age) * law.h - run.met;
             self.ended.push(Impact {
                 bodies: runs[0].slots.map(|slot| bodies.id(slot)),
@@ -226,9 +249,56 @@ impl Impacts {
 }
 
 impl Run {
+    /// Adds what its rows did in this sub-step, and the heat that was told of them.
+    fn add_rows(&mut self, law: &Law, bodies: &Bodies, row: Row<'_>) {
+        if self.came.is_none() {
+            self.come(law, bodies, row);
+        }
+        let (block, cold, lane) = row;
+        self.heat += block.heat(lane, &bodies.lines, cold.belt[lane]);
+        self.add(bodies, row, block.impulses(lane));
+    }
+
+    /// Notes with what speeds it came to its first sub-step.
+    fn come(&mut self, law: &Law, bodies: &Bodies, (block, cold, lane): Row<'_>) {
+        let [a, b] = block
+            .lines(lane)
+            .map(|line| bodies.velocity_before(line, law.h));
+        let (gap, pull) = (self.speed * self.met, pull(bodies, block, lane));
+        let [first, second] = block.along(lane, a, b).map(|v| at_surface(v, gap, pull));
+        let slip = block.across(lane, a, b) - cold.belt[lane];
+        self.came = Some([first, second, slip]);
+    }
+
+    /// Adds what this sub-step's impulses took, but for heat of friction that is told elsewhere: impulse × mean of the speeds before
+    /// and after is the work of a row, whatever the others do. The speeds with which its points open now.
+    fn lose(
+        &mut self,
+        rest: f64,
+        bodies: &Bodies,
+        (block, cold, lane): Row<'_>,
+        gaps: [f64; 2],
+    ) -> [f64; 3] {
+        let [first, second] = block.opening(lane, &bodies.lines);
+        let slip = block.slip(lane, &bodies.lines) - cold.belt[lane];
+        let left = [first, second, slip];
+        let came = self.came.replace(left).unwrap_or(left);
+        let mut gone = left;
+        for (v, gap) in gone.iter_mut().zip(gaps) {
+            if *v > rest {
+                *v = at_surface(*v, gap, pull(bodies, block, lane));
+            }
+        }
+        for ((j, came), gone) in self.did.iter().zip(came).zip(gone) {
+            self.lost -= 0.5 * j * (came + gone);
+        }
+        self.lost -= self.heat;
+        (self.did, self.heat) = ([0.0; 3], 0.0);
+        left
+    }
+
     /// Adds normal impulses of both points, and that of friction.
-    fn add(&mut self, bodies: &Bodies, graph: &Graph, j: [f64; 3]) {
-        let (block, _, lane) = graph.lane(self.contact);
+    fn add(&mut self, bodies: &Bodies, (block, _, lane): Row<'_>, j: [f64; 3]) {
         let normal = block.normal(lane);
         let sum = j[0] + j[1];
         // Midway between the surfaces: from the centre of a body that has a line of its own.
@@ -246,6 +316,24 @@ impl Run {
         self.normal += normal * sum;
         self.impulse += normal * sum + perp(normal) * j[2];
         self.moment += first * sum - perp(normal) * (block.l[lane] * j[1]);
+        for (sum, j) in self.did.iter_mut().zip(j) {
+            *sum += j;
+        }
+    }
+}
+
+/// The acceleration that closes a contact, in m/s²: at most 0.
+fn pull(bodies: &Bodies, block: &Block, lane: usize) -> f64 {
+    let [a, b] = block.lines(lane).map(|line| bodies.pull[line].v());
+    block.normal(lane).dot(b - a).min(0.0)
+}
+
+/// The speed at the surface of a point that comes or goes at `v` where the gap is `gap`.
+fn at_surface(v: f64, gap: f64, pull: f64) -> f64 {
+    if gap > 0.0 {
+        (v * v - 2.0 * pull * gap).sqrt().copysign(v)
+    } else {
+        v
     }
 }
 
@@ -281,15 +369,17 @@ fn arrival(
         // No row held it: it went as it came.
         gaps = [0, 1].map(|point| gaps[point] - opening[point] * law.h);
     }
-    let pull = bodies.pull[ends[1]].v() - bodies.pull[ends[0]].v();
-    let pull = block.normal(lane).dot(pull).min(0.0);
+    let pull = pull(bodies, block, lane);
+    let rest = REST * law.h * law.gravity;
     let mut first: Option<[f64; 2]> = None;
     for point in (0..points).filter(|point| is_apart(gaps, point)) {
         let before = opening[point] - pull * law.h;
-        let speed = (before * before - 2.0 * pull * gaps[point]).sqrt();
-        let faster = first.is_none_or(|[known, _]| speed > known);
-        if before < 0.0 && speed > REST * law.h * law.gravity && faster {
-            first = Some([speed, gaps[point] / speed]);
+        let square = before * before - 2.0 * pull * gaps[point];
+        if before < 0.0 && square > rest * rest {
+            let speed = square.sqrt();
+            if first.is_none_or(|[known, _]| speed > known) {
+                first = Some([speed, gaps[point] / speed]);
+            }
         }
     }
     first
@@ -300,6 +390,7 @@ impl Engine {
     pub fn note_impacts(&mut self, asked: bool) {
         self.impacts = Impacts {
             asked,
+            lost: self.impacts.lost,
             ..Impacts::default()
         };
     }

@@ -175,6 +175,13 @@ impl Engine {
         self.heat
     }
 
+    /// What impacts that ended have taken so far beside [`Self::friction_heat`], in J, to first order in the sub-step: of those that are noted
+    /// ([`Self::note_impacts`]), impulse × mean of the speeds before and after each sub-step.
+    #[must_use]
+    pub const fn impact_losses(&self) -> f64 {
+        self.impacts.lost
+    }
+
     /// What belts have given so far, to bodies and as heat, in J.
     #[must_use]
     pub const fn belt_work(&self) -> f64 {

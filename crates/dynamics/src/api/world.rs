@@ -265,10 +265,11 @@ impl World {
         let mut ledger = self.bodies.ledger(self.clock.now);
         if self.settings.mode == Mode::Stepped {
             if let Some(stepping) = &self.stepping {
+                ledger.impacts += stepping.engine.impact_losses();
                 ledger.friction += stepping.engine.friction_heat();
                 ledger.external += self.joins.driven.value() + stepping.engine.belt_work();
             }
-            // One sum for all rows and push-outs: what they did is what the energies tell.
+            // What all other rows and push-outs did is what the energies tell.
             ledger.scheme += ledger.residual();
             return ledger;
         }

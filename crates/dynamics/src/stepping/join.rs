@@ -358,12 +358,14 @@ impl World {
         gained.add(-self.bodies.book.struck.value());
         let engine = self.stepping.as_ref().map(|stepping| &stepping.engine);
         let heat = engine.map_or(0.0, carom_stepped::Engine::friction_heat);
+        let lost = engine.map_or(0.0, carom_stepped::Engine::impact_losses);
         let belts = engine.map_or(0.0, carom_stepped::Engine::belt_work);
         let (driven, forced) = (self.joins.driven.value() + belts, self.joins.forced.value());
+        ledger.impacts += lost;
         ledger.friction += heat;
         ledger.external += driven;
         ledger.forces += forced;
-        // What rows and push-outs did is what the energies tell beside that.
-        ledger.scheme += gained.value() + heat - driven - forced;
+        // What other rows and push-outs did is what the energies tell beside that.
+        ledger.scheme += gained.value() + lost + heat - driven - forced;
     }
 }

@@ -78,7 +78,7 @@ impl Stepping {
             ..carom_stepped::Settings::default()
         })
         .map_err(|refused| SettingsError::Stepped { refused })?;
-        engine.note_impacts(settings.events > 0);
+        engine.note_impacts(true);
         Ok(Box::new(Self {
             engine,
             ids: List::default(),
@@ -100,9 +100,6 @@ impl Stepping {
         }
         if old.sleep != new.sleep {
             accepted(self.engine.set_sleep(sleep_of(new)));
-        }
-        if (old.events > 0) != (new.events > 0) {
-            self.engine.note_impacts(new.events > 0);
         }
     }
 

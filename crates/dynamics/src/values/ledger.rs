@@ -8,8 +8,10 @@
 /// ```text
 /// kinetic + potential + impacts + friction = external + forces + scheme
 /// ```
-/// In [`crate::Mode::Stepped`] `friction` is the heat of rows, `impacts` is 0 (bounces are not told apart from other rows),
-/// `scheme` is what the other columns do not explain, and the balance checks nothing; otherwise that is so for the part of it that bodies moved by the engine have.
+/// For bodies that the engine moves, all of them in [`crate::Mode::Stepped`], `friction` is the heat of rows, `impacts` the rest of
+/// what was lost in impacts that are told as events, both to first order in the sub-step, and `scheme` what the other columns do
+/// not explain: for them the balance checks nothing. It has what contacts took that bore a load already: of what sixty
+/// bodies lost that fell in a heap without restitution up to a tenth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct EnergyLedger {

@@ -163,6 +163,20 @@ impl Block {
         [self.a[lane], self.b[lane]]
     }
 
+    /// The heat of a lane's friction in J that its last sweep told, by what the slip is now: what sticks made none.
+    pub(crate) fn heat(&self, lane: usize, lines: &[Line], belt: f64) -> f64 {
+        let (at, bt, jt) = (self.at[lane], self.bt[lane], self.jt[lane]);
+        if jt.abs() < self.mu[lane] * (self.j1[lane] + self.j2[lane]) {
+            return 0.0;
+        }
+        let [a, b] = self.ends(lane, lines);
+        let slip = self.slip(lane, lines) - belt;
+        let m = a.inverse_mass() + b.inverse_mass();
+        let k = m + a.inverse_inertia() * at * at + b.inverse_inertia() * bt * bt;
+        let most = slip.abs();
+        -jt * (slip - (0.5 * k * jt).clamp(-most, most))
+    }
+
     /// The bodies of a lane.
     fn ends<'l>(&self, lane: usize, lines: &'l [Line]) -> [&'l Line; 2] {
         self.lines(lane).map(|line| &lines[line.at()])

@@ -36,6 +36,8 @@ pub(crate) struct Arrival {
     pull: f64,
     /// What the bounce adds at both points along the normal, and across, in N·s.
     pub(crate) impulses: [f64; 3],
+    /// What friction turned to heat as it bounced, in J.
+    pub(crate) heat: f64,
 }
 
 /// Finds what is met within this sub-step or the next, once the warm start acts.
@@ -92,6 +94,7 @@ fn arrival(
         leaves: [f64::NEG_INFINITY; 2],
         pull,
         impulses: [0.0; 3],
+        heat: 0.0,
     };
     for point in 0..block.points(lane) {
         let (v, gap) = (v[point], gaps[point]);
@@ -149,8 +152,9 @@ pub(crate) fn bounce(
     solve(bodies, arrived, &bounces, (before.len(), &places));
     keep(bodies, arrived, &bounces, (before, &places));
     let mut work = [0.0; 2];
-    for (arrival, bounce) in arrived.iter().zip(&bounces) {
+    for (arrival, bounce) in arrived.iter_mut().zip(&bounces) {
         let [heat, given] = bounce.work(&bodies.lines, arrival.impulses[2]);
+        arrival.heat = heat;
         work = [work[0] + heat, work[1] + given];
     }
     work
