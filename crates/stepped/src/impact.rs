@@ -264,7 +264,7 @@ impl Run {
         let [a, b] = block
             .lines(lane)
             .map(|line| bodies.velocity_before(line, law.h));
-        let (gap, pull) = (self.speed * self.met, pull(bodies, block, lane));
+        let (gap, pull) = (self.speed * self.met, block.pull(lane, bodies));
         let [first, second] = block.along(lane, a, b).map(|v| at_surface(v, gap, pull));
         let slip = block.across(lane, a, b) - cold.belt[lane];
         self.came = Some([first, second, slip]);
@@ -286,7 +286,7 @@ impl Run {
         let mut gone = left;
         for (v, gap) in gone.iter_mut().zip(gaps) {
             if *v > rest {
-                *v = at_surface(*v, gap, pull(bodies, block, lane));
+                *v = at_surface(*v, gap, block.pull(lane, bodies));
             }
         }
         for ((j, came), gone) in self.did.iter().zip(came).zip(gone) {
@@ -322,16 +322,10 @@ impl Run {
     }
 }
 
-/// The acceleration that closes a contact, in m/s²: at most 0.
-fn pull(bodies: &Bodies, block: &Block, lane: usize) -> f64 {
-    let [a, b] = block.lines(lane).map(|line| bodies.pull[line].v());
-    block.normal(lane).dot(b - a).min(0.0)
-}
-
-/// The speed at the surface of a point that comes or goes at `v` where the gap is `gap`.
+/// The speed at the surface of a point that comes or goes at `v` where the gap is `gap`, if `pull` closes it.
 fn at_surface(v: f64, gap: f64, pull: f64) -> f64 {
     if gap > 0.0 {
-        (v * v - 2.0 * pull * gap).sqrt().copysign(v)
+        (v * v - 2.0 * pull.min(0.0) * gap).sqrt().copysign(v)
     } else {
         v
     }
@@ -369,7 +363,7 @@ fn arrival(
         // No row held it: it went as it came.
         gaps = [0, 1].map(|point| gaps[point] - opening[point] * law.h);
     }
-    let pull = pull(bodies, block, lane);
+    let pull = block.pull(lane, bodies).min(0.0);
     let rest = REST * law.h * law.gravity;
     let mut first: Option<[f64; 2]> = None;
     for point in (0..points).filter(|point| is_apart(gaps, point)) {

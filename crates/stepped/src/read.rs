@@ -175,8 +175,8 @@ impl Engine {
         self.heat
     }
 
-    /// What impacts that ended have taken so far beside [`Self::friction_heat`], in J, to first order in the sub-step: of those that are noted
-    /// ([`Self::note_impacts`]), impulse × mean of the speeds before and after each sub-step.
+    /// What impacts that ended have taken so far beside [`Self::friction_heat`], in J, to first order in the sub-step: of those that
+    /// are noted ([`Self::note_impacts`]), impulse × mean of the speeds before and after each sub-step.
     #[must_use]
     pub const fn impact_losses(&self) -> f64 {
         self.impacts.lost

@@ -3,6 +3,7 @@
 use carom_math::{Vec2, perp};
 
 use super::line::{Line, Quad};
+use super::plain::friction_heat;
 use crate::bodies::Bodies;
 use crate::narrow::Manifold;
 use crate::{ContactIx, LineIx, PieceIx};
@@ -173,8 +174,13 @@ impl Block {
         let slip = self.slip(lane, lines) - belt;
         let m = a.inverse_mass() + b.inverse_mass();
         let k = m + a.inverse_inertia() * at * at + b.inverse_inertia() * bt * bt;
-        let most = slip.abs();
-        -jt * (slip - (0.5 * k * jt).clamp(-most, most))
+        friction_heat(jt, slip, k)
+    }
+
+    /// The acceleration with which what pulls the bodies of a lane opens its points, in m/s².
+    pub(crate) fn pull(&self, lane: usize, bodies: &Bodies) -> f64 {
+        let [a, b] = self.lines(lane).map(|line| bodies.pull[line].v());
+        self.normal(lane).dot(b - a)
     }
 
     /// The bodies of a lane.

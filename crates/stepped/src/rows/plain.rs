@@ -33,6 +33,14 @@ fn smaller(x: f64, y: f64) -> f64 {
     if x < y { x } else { y }
 }
 
+/// The heat of a friction impulse in J, by the mean of the slips at both ends of the sub-step as far as its row knows: before it was
+/// `k` times the impulse less than the `slip` it left. What sticks makes none.
+pub(super) fn friction_heat(impulse: f64, slip: f64, k: f64) -> f64 {
+    let most = slip.abs();
+    let half = larger(-most, smaller(most, 0.5 * (k * impulse)));
+    -(impulse * (slip - half))
+}
+
 fn positive(x: f64) -> f64 {
     larger(x, 0.0)
 }
@@ -155,10 +163,7 @@ pub(crate) fn row(
         let new = larger(-limit, wanted);
         let dt = new - jt;
         block.jt[lane] = new;
-        let slip = vt + k * dt;
-        let most = slip.abs();
-        let half = larger(-most, smaller(most, 0.5 * (k * new)));
-        heat = -(new * (slip - half));
+        heat = friction_heat(new, vt + k * dt, k);
         let (px, py) = (-ny * dt, nx * dt);
         avx -= px * ma;
         avy -= py * ma;

@@ -83,8 +83,7 @@ fn arrival(
     if v[0].min(v[1]) >= -least {
         return None;
     }
-    let [pull_a, pull_b] = lines.map(|line| bodies.pull[line].v());
-    let pull = block.normal(lane).dot(pull_b - pull_a);
+    let pull = block.pull(lane, bodies);
     let gaps = block.gaps(lane, &bodies.lines);
     let mut arrival = Arrival {
         contact: cold.contact[lane],

@@ -108,3 +108,15 @@ fn all_widths_note_the_bodies_that_deviate_or_go_far_one_by_one() {
     assert!(all / 10 < deviate && deviate < all, "{deviate} of {all}");
     assert!(all / 10 < far && far < all, "{far} of {all}");
 }
+
+/// Bodies whose velocities are no longer numbers are stopped as the tick ends: until then their impacts are summed like others.
+#[test]
+fn heat_of_what_is_no_number_is_none_either() {
+    for slip in [f64::NAN, f64::INFINITY] {
+        assert!(!plain::friction_heat(1.0, slip, 2.0).is_finite());
+    }
+    // It stuck; it slid from −3 to −1 m/s.
+    for (slip, heat) in [(0.0, 0.0), (-1.0, 4.0)] {
+        assert!((plain::friction_heat(2.0, slip, 1.0) - heat).abs() < 1e-15);
+    }
+}
