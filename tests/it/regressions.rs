@@ -62,6 +62,7 @@ mod an_impact_on_the_border_of_two_sub_steps_bounces;
 mod an_impulse_beyond_the_largest_speed_is_refused;
 mod an_overlap_within_a_sub_step_is_told;
 mod begins_and_ends_of_touch_take_turns;
+mod bounces_end_where_the_point_of_contact_is;
 mod concave_bodies_come_to_rest_by_rocking;
 mod driven_bodies_do_not_hurl_what_they_squeeze;
 mod elastic_blocks_do_not_stop;

@@ -1,7 +1,7 @@
 //! How the gap at a point of contact bends: the second derivative that tells press from pull.
 
 use carom_collision::{Hull, Motion, Side};
-use carom_math::{SimTime, Vec2, cross_scalar, perp};
+use carom_math::{Rot, SimTime, Vec2, cross_scalar, perp};
 
 /// What of a body touches: a corner, or the centre of a disc; and how it moves.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +45,11 @@ impl Touching {
             centre_acceleration: motion.acceleration,
         }
     }
+
+    /// By how much it is displaced in the next `t` seconds, in m.
+    fn way(&self, t: f64) -> Vec2 {
+        (self.velocity + self.acceleration * (0.5 * t)) * t
+    }
 }
 
 /// g″ of the gap g between features of A and B along the normal from A to B, in m/s².
@@ -65,7 +70,7 @@ pub(crate) fn gap_acceleration(
         Some(Side::A) => (a, b, normal),
         Some(Side::B) => (b, a, -normal),
         None => {
-            let (d, slip) = (b.at - a.at, (b.velocity - a.velocity).dot(perp(normal)));
+            let (d, slip) = (b.at - a.at, slip_of(a, b, normal));
             let distance = d.length();
             let bend = if distance > 0.0 {
                 slip * slip / distance
@@ -80,6 +85,47 @@ pub(crate) fn gap_acceleration(
         + 2.0 * own.spin * t.dot(other.velocity - own.centre_velocity)
         + own.turning * t.dot(d)
         - own.spin * own.spin * n.dot(d)
+}
+
+/// How fast the feature of B goes along that of A, along the normal turned by +90°, in m/s.
+pub(crate) fn slip_of(a: &Touching, b: &Touching, normal: Vec2) -> f64 {
+    (b.velocity - a.velocity).dot(perp(normal))
+}
+
+/// Point of contact, in m, and normal from A to B of features that touch now, and again `t` seconds later.
+///
+/// On a straight face of body E the point goes with the other one's corner or disc, and the normal with E's rotation.
+/// Between corners and centres the point divides their distance as it does now, and the normal is along it.
+pub(crate) fn contact_after(
+    a: &Touching,
+    b: &Touching,
+    (point, normal): (Vec2, Vec2),
+    face: Option<Side>,
+    t: f64,
+) -> (Vec2, Vec2) {
+    let (own, other) = match face {
+        Some(Side::A) => (a, b),
+        Some(Side::B) => (b, a),
+        None => {
+            let (d, ways) = (b.at - a.at, [a.way(t), b.way(t)]);
+            let part = if d == Vec2::ZERO {
+                0.5
+            } else {
+                (point - a.at).dot(d) / d.length_squared()
+            };
+            let later = d + ways[1] - ways[0];
+            let at = point + ways[0] + (ways[1] - ways[0]) * part;
+            // Two corners that meet have no distance to tell the normal by.
+            let normal = if d == Vec2::ZERO {
+                normal
+            } else {
+                later.normalize_or(normal)
+            };
+            return (at, normal);
+        }
+    };
+    let turned = (own.spin + 0.5 * own.turning * t) * t;
+    (point + other.way(t), Rot::from_angle(turned) * normal)
 }
 
 #[cfg(test)]

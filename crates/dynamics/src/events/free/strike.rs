@@ -78,7 +78,7 @@ impl World {
             0.0
         };
         let series = self.count_in_series(impact, time, speed, left);
-        let ends = e < 1.0 && series.has_faded(speed, if press > 0.0 { FADED } else { GONE });
+        let ends = !smooth && series.has_faded(speed, if press > 0.0 { FADED } else { GONE });
         let e = if ends { 0.0 } else { e };
         let material = PairMaterial {
             restitution: e,
@@ -322,7 +322,7 @@ pub(super) fn pace(body: &ImpactBody, reach: f64) -> f64 {
 }
 
 /// Normal velocity of a point of contact: positive opens.
-fn opening(bodies: &[ImpactBody; 2], point: Vec2, normal: Vec2) -> f64 {
+pub(super) fn opening(bodies: &[ImpactBody; 2], point: Vec2, normal: Vec2) -> f64 {
     (bodies[1].velocity_of(point) - bodies[0].velocity_of(point)).dot(normal)
 }
 
