@@ -9,7 +9,7 @@ use crate::broad::window::box_ahead;
 use crate::events::resolve::PairImpact;
 use crate::model::ghost::look_at;
 use crate::model::narrow::{NOISE, TOUCH, opening_speed, pace, rest_speed};
-use crate::store::pairs::PairPoint;
+use crate::store::pairs::{Pair, PairPoint};
 use crate::{BodyIx, PairIx, World};
 
 impl World {
@@ -95,14 +95,19 @@ impl World {
         })
     }
 
-    /// Bodies with nothing near fly.
+    /// Bodies that nothing holds fly: one that bounced off all that it touches, as a disc that comes out of a corner, and several with
+    /// nothing near. What opens without restitution was pressed, and several bodies that open strike each other again and again.
     fn drop_alone(&mut self, time: SimTime) {
         for island in self.unsolved_islands() {
-            let alone = |index: &BodyIx| {
-                let mut pairs = self.bodies.get(*index).pairs.iter();
-                pairs.all(|place| self.pairs.get(*place).contacts.is_empty())
-            };
-            if island.iter().all(alone) {
+            let pairs = island
+                .iter()
+                .flat_map(|index| &self.bodies.get(*index).pairs);
+            let pairs: Vec<&Pair> = pairs.map(|place| self.pairs.get(*place)).collect();
+            let mut touching = pairs.iter().filter(|pair| pair.touching).peekable();
+            let bounced = island.len() == 1
+                && touching.peek().is_some()
+                && touching.all(|pair| pair.material.restitution > 0.0);
+            if bounced || pairs.iter().all(|pair| pair.contacts.is_empty()) {
                 self.drop_unheld(&island, time);
             }
         }
