@@ -270,12 +270,7 @@ impl World {
         let speed = speed.max(gathered.rest);
         match gathered.solve_modes(speed) {
             Ok(moves) => {
-                // What flies, and touches what belongs to an island, is the island's from now on.
-                for &index in &gathered.places {
-                    if self.bodies.get(index).is_free() {
-                        self.land_first(index, time);
-                    }
-                }
+                self.land_touching(&gathered, time);
                 self.close(&gathered, &moves, time, speed);
             }
             Err(why) => {
@@ -299,6 +294,15 @@ impl World {
                     }
                     Err(_) => self.fail(&gathered.dynamic(), time),
                 }
+            }
+        }
+    }
+
+    /// What flies, and touches what belongs to an island, is the island's from now on.
+    pub(crate) fn land_touching(&mut self, gathered: &Gathered, time: SimTime) {
+        for &index in &gathered.places {
+            if self.bodies.get(index).is_free() {
+                self.land_first(index, time);
             }
         }
     }

@@ -6,7 +6,7 @@ use carom_math::SimTime;
 
 use crate::analytic::islands::kept;
 use crate::analytic::islands::store::Group;
-use crate::analytic::islands::tips::path_of;
+use crate::analytic::islands::tips::{is_too_large, path_of};
 use crate::analytic::modes::NotMine;
 use crate::analytic::touching::Gathered;
 use crate::{BodyIx, IslandIx, Mode, World};
@@ -30,13 +30,12 @@ impl World {
         speed: f64,
         landed: bool,
     ) -> Result<(), NotMine> {
+        if is_too_large(gathered, self.settings.mode) {
+            return Err(NotMine::Turns);
+        }
+        self.land_touching(gathered, time);
         let gathered = &*gathered.with_corners_once();
-        let tip = path_of(
-            &self.bodies,
-            &self.pairs,
-            gathered,
-            (time, speed, self.settings.mode),
-        )?;
+        let tip = path_of(&self.bodies, &self.pairs, gathered, (time, speed))?;
         let is_slow = || {
             tip.landing_speed()
                 .is_some_and(|speed| speed < SLOW * gathered.rest)

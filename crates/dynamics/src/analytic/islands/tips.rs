@@ -12,7 +12,7 @@ use crate::model::graph::pair_of;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Pairs;
 use crate::store::state::BodyState;
-use crate::{BodyIx, ColliderIx, Mode};
+use crate::{ColliderIx, Mode};
 
 /// A corner this near to a point of contact is what touches there, as a part of the smaller reach.
 const NEAR: f64 = 1e-6;
@@ -29,13 +29,8 @@ pub(crate) fn path_of(
     bodies: &Bodies,
     pairs: &Pairs,
     gathered: &Gathered,
-    (time, speed, mode): (SimTime, f64, Mode),
+    (time, speed): (SimTime, f64),
 ) -> Result<Tip, NotMine> {
-    // Free bodies land first.
-    let is_free = |index: &BodyIx| bodies.get(*index).is_free();
-    if is_too_large(gathered, mode) || gathered.places.iter().any(is_free) {
-        return Err(NotMine::Turns);
-    }
     let contacts = joints(bodies, pairs, gathered, time).ok_or(NotMine::Curved)?;
     let both = gathered.places.iter().zip(&gathered.bodies);
     let (mut places, mut reaches) = (Vec::new(), Vec::new());
@@ -65,7 +60,7 @@ pub(crate) fn path_of(
 }
 
 /// Whether so many bodies turn that they have no path. Touches that are new are in `gathered` alone.
-fn is_too_large(gathered: &Gathered, mode: Mode) -> bool {
+pub(crate) fn is_too_large(gathered: &Gathered, mode: Mode) -> bool {
     let moving = gathered.dynamic();
     let is_borne = moving.len() < gathered.places.len();
     moving.len() > MOST || moving.len() > MOST_BESIDE_ENGINE && mode == Mode::Hybrid && is_borne
