@@ -94,6 +94,7 @@ mod what_lies_under_a_valley_is_not_touched;
 mod what_meets_in_months_does_not_meet_now;
 mod what_moves_does_not_fall_asleep;
 mod what_opens_under_a_ceiling_comes_back_to_it;
+mod what_rests_again_is_landed_on_at_once;
 mod what_slides_on_a_floor_goes_up_a_ramp;
 mod what_slides_on_one_slope_meets_the_other;
 mod what_strong_damping_takes_is_in_the_ledger;

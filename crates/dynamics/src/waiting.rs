@@ -34,7 +34,10 @@ impl World {
         // What touches something more as it begins its motion waits again.
         let began = self.begin_analytic_motion(time);
         self.tell_waiting(time);
-        began || !waiting.is_empty() || !are_known || self.unsettled.len() < before
+        // And what touches something that has come to rest lands on it.
+        let mut left = self.unsettled.iter();
+        let lands = left.any(|index| self.bodies.get(*index).is_unsolved());
+        began || lands || !waiting.is_empty() || !are_known || self.unsettled.len() < before
     }
 
     /// Contacts of all that waits for its method; begins and ends of touch, and overlaps. Places of the pairs.
