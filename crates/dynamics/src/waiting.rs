@@ -10,7 +10,7 @@ use crate::events::resolve::PairImpact;
 use crate::model::ghost::look_at;
 use crate::model::narrow::{NOISE, TOUCH, opening_speed, pace, rest_speed};
 use crate::store::pairs::{Pair, PairPoint};
-use crate::{BodyIx, PairIx, World};
+use crate::{BodyIx, Mode, PairIx, World};
 
 impl World {
     /// Gives all that waits at an instant its method, once all that happens at that instant has happened; whether something waited.
@@ -98,22 +98,28 @@ impl World {
         })
     }
 
-    /// Bodies that nothing holds fly: one that bounced off all that it touches, as a disc that comes out of a corner, and several with
-    /// nothing near. What opens without restitution was pressed, and several bodies that open strike each other again and again.
+    /// Bodies that nothing holds fly: what they touch opens. In hybrid mode this is so of one that bounced off all that it touches, as
+    /// a disc that comes out of a corner, and of several with nothing near: others strike again soon, and are cheaper in the engine
+    /// (dominoes 1.7 times, hills 1.3).
     fn drop_alone(&mut self, time: SimTime) {
         for island in self.unsolved_islands() {
-            let pairs = island
-                .iter()
-                .flat_map(|index| &self.bodies.get(*index).pairs);
-            let pairs: Vec<&Pair> = pairs.map(|place| self.pairs.get(*place)).collect();
-            let mut touching = pairs.iter().filter(|pair| pair.touching).peekable();
-            let bounced = island.len() == 1
-                && touching.peek().is_some()
-                && touching.all(|pair| pair.material.restitution > 0.0);
-            if bounced || pairs.iter().all(|pair| pair.contacts.is_empty()) {
+            if self.settings.mode == Mode::Exact || self.bounced(&island) {
                 self.drop_unheld(&island, time);
             }
         }
+    }
+
+    /// Whether one body bounced off all that it touches, or several have nothing near.
+    fn bounced(&self, island: &[BodyIx]) -> bool {
+        let pairs = island
+            .iter()
+            .flat_map(|index| &self.bodies.get(*index).pairs);
+        let pairs: Vec<&Pair> = pairs.map(|place| self.pairs.get(*place)).collect();
+        let mut touching = pairs.iter().filter(|pair| pair.touching).peekable();
+        let bounces = island.len() == 1
+            && touching.peek().is_some()
+            && touching.all(|pair| pair.material.restitution > 0.0);
+        bounces || pairs.iter().all(|pair| pair.contacts.is_empty())
     }
 
     /// What meets a body that stands until the sub-step ends joins with it: neither the calendar queue nor the engine knows that
