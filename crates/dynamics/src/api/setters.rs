@@ -9,10 +9,9 @@ use carom_math::Vec2;
 use super::world::check_shapes;
 use crate::store::mass::{mass_of, reach_of};
 use crate::store::state::BodyState;
-use crate::values::error::{check_finite, check_vec2};
+use crate::values::error::{check_finite, check_positive, check_vec2};
 use crate::{
-    BodyDef, BodyError, BodyId, BodyIx, BodyKind, ColliderIx, Material, Settings, SettingsError,
-    World,
+    BodyDef, BodyError, BodyId, BodyIx, ColliderIx, Material, Settings, SettingsError, World,
 };
 
 impl World {
@@ -70,11 +69,8 @@ impl World {
     pub fn set_locked_rotation(&mut self, id: BodyId, locked: bool) -> Result<(), BodyError> {
         let index = self.bodies.find(id)?;
         let state = self.bodies.get(index);
-        if !locked && state.kind == BodyKind::Dynamic && state.mass.inertia <= 0.0 {
-            return Err(BodyError::NotPositive {
-                field: "inertia",
-                value: state.mass.inertia,
-            });
+        if !locked && state.is_dynamic() {
+            check_positive("inertia", state.mass.inertia)?;
         }
         self.remake(index, |state| {
             state.locked_rotation = locked;

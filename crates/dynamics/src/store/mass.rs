@@ -3,7 +3,7 @@
 use carom_geometry::{Aabb, AreaProperties, MassProperties, Shape};
 use carom_math::{Pose, Vec2};
 
-use crate::values::error::BodyError;
+use crate::values::error::{BodyError, check_positive};
 use crate::{BodyDef, BodyKind, Material};
 
 /// A centre of mass nearer to the origin of its shapes than this, as a fraction of how far they reach from there, is there: two
@@ -72,11 +72,8 @@ pub(crate) fn mass_of(
     if let Some(given) = def.inertia {
         mass.inertia = given;
     }
-    if mass.inertia <= 0.0 && !def.locked_rotation {
-        return Err(BodyError::NotPositive {
-            field: "inertia",
-            value: mass.inertia,
-        });
+    if !def.locked_rotation {
+        check_positive("inertia", mass.inertia)?;
     }
     Ok(mass)
 }

@@ -2,7 +2,9 @@
 
 use carom_math::{Vec2, vec2};
 
-use super::error::{BodyError, check_finite, check_mass, check_vec2};
+use super::error::{
+    BodyError, check_finite, check_mass, check_not_negative, check_positive, check_vec2,
+};
 use crate::Filter;
 
 /// What moves a body.
@@ -276,24 +278,15 @@ impl BodyDef {
         check_vec2("velocity.x", "velocity.y", self.velocity)?;
         check_finite("spin", self.spin)?;
         check_finite("gravity_scale", self.gravity_scale)?;
-        for (field, value) in [
-            ("linear_damping", self.linear_damping),
-            ("angular_damping", self.angular_damping),
-        ] {
-            check_finite(field, value)?;
-            if value < 0.0 {
-                return Err(BodyError::Negative { field, value });
-            }
-        }
+        check_not_negative("linear_damping", self.linear_damping)?;
+        check_not_negative("angular_damping", self.angular_damping)?;
         if let Some(centre) = self.centre {
             check_vec2("centre.x", "centre.y", centre)?;
         }
         for (field, given) in [("mass", self.mass), ("inertia", self.inertia)] {
             if let Some(value) = given {
                 check_mass(field, value)?;
-                if value <= 0.0 {
-                    return Err(BodyError::NotPositive { field, value });
-                }
+                check_positive(field, value)?;
             }
         }
         Ok(())

@@ -182,6 +182,21 @@ fn check_limit(field: &'static str, value: f64, limit: f64) -> Result<(), BodyEr
     }
 }
 
+pub(crate) fn check_not_negative(field: &'static str, value: f64) -> Result<(), BodyError> {
+    check_finite(field, value)?;
+    if value < 0.0 {
+        return Err(BodyError::Negative { field, value });
+    }
+    Ok(())
+}
+
+pub(crate) fn check_positive(field: &'static str, value: f64) -> Result<(), BodyError> {
+    if value <= 0.0 {
+        return Err(BodyError::NotPositive { field, value });
+    }
+    Ok(())
+}
+
 pub(crate) fn check_vec2(
     x_field: &'static str,
     y_field: &'static str,

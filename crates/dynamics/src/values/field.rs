@@ -4,7 +4,7 @@ use core::fmt;
 
 use carom_math::Vec2;
 
-use super::error::{BodyError, check_finite, check_vec2};
+use super::error::{BodyError, check_finite, check_positive, check_vec2};
 
 /// A conservative field: every body feels its acceleration at its centre of mass.
 ///
@@ -72,12 +72,7 @@ impl RadialField {
         check_vec2("field.centre.x", "field.centre.y", centre)?;
         check_finite("field.strength", strength)?;
         check_finite("field.core", core)?;
-        if core <= 0.0 {
-            return Err(BodyError::NotPositive {
-                field: "field.core",
-                value: core,
-            });
-        }
+        check_positive("field.core", core)?;
         Ok(Self {
             centre,
             strength,

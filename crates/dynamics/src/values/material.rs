@@ -2,7 +2,7 @@
 
 use carom_math::Vec2;
 
-use super::error::{BodyError, check_finite};
+use super::error::{BodyError, check_finite, check_not_negative};
 use crate::impact::ImpactContact;
 
 /// Density and surface of a shape.
@@ -87,13 +87,7 @@ impl Material {
     /// # Errors
     /// If density or friction is below 0, restitution outside 0..1, or a number is not finite or beyond [`WORLD_LIMIT`](crate::WORLD_LIMIT).
     pub fn check(&self) -> Result<(), BodyError> {
-        check_finite("density", self.density)?;
-        if self.density < 0.0 {
-            return Err(BodyError::Negative {
-                field: "density",
-                value: self.density,
-            });
-        }
+        check_not_negative("density", self.density)?;
         PairMaterial {
             friction: self.friction,
             restitution: self.restitution,
@@ -131,15 +125,9 @@ impl PairMaterial {
     }
 
     pub(crate) fn check(self) -> Result<(), BodyError> {
-        check_finite("friction", self.friction)?;
+        check_not_negative("friction", self.friction)?;
         check_finite("restitution", self.restitution)?;
         check_finite("tangent_speed", self.tangent_speed)?;
-        if self.friction < 0.0 {
-            return Err(BodyError::Negative {
-                field: "friction",
-                value: self.friction,
-            });
-        }
         if !(0.0..=1.0).contains(&self.restitution) {
             return Err(BodyError::Restitution {
                 value: self.restitution,

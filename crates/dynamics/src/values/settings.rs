@@ -227,14 +227,10 @@ impl Settings {
         // A tick of more sub-steps than this is a typing error, not a wish.
         range("tick / substep", self.tick / self.substep, 0.0, 1e6)?;
         range("field_error", self.field_error, 1e-15, 1e3)?;
-        if self.work == 0 {
-            return Err(SettingsError::NotPositive {
-                field: "work",
-                value: 0.0,
-            });
-        }
-        #[expect(clippy::cast_precision_loss, reason = "any such number is refused")]
-        range("threads", self.threads as f64, 1.0, 1024.0)?;
+        #[expect(clippy::cast_precision_loss, reason = "only their size counts")]
+        let (work, threads) = (self.work as f64, self.threads as f64);
+        range("work", work, 1.0, f64::MAX)?;
+        range("threads", threads, 1.0, 1024.0)?;
         let contact = &self.contact;
         range("contact.frequency", contact.frequency, 1e-9, 1e9)?;
         range("contact.damping_ratio", contact.damping_ratio, 1e-9, 1e9)?;
