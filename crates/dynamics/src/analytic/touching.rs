@@ -97,7 +97,8 @@ impl Gathered {
     /// Kinetic energy that the bodies have in the world, in J.
     pub(crate) fn kinetic(&self, bodies: &Bodies, time: SimTime) -> f64 {
         let all = self.places.iter();
-        all.map(|&index| bodies.energy_of(index, time).0).sum()
+        all.map(|index| bodies.get(*index).kinetic_energy(time))
+            .sum()
     }
 
     /// Every touch that there was before a landing stays closed: what that opened comes back at once.

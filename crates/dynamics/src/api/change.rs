@@ -14,7 +14,7 @@ use crate::stepping::{accepted, is_blow};
 use crate::store::course::Course;
 use crate::store::pull::Pull;
 use crate::store::state::BodyState;
-use crate::values::error::{check_finite, check_vec2};
+use crate::values::error::{check_finite, check_positive, check_vec2};
 use crate::{
     BodyDef, BodyError, BodyId, BodyIx, BodyKind, Field, Filter, Force, Impulse, Mode, World,
 };
@@ -71,12 +71,7 @@ impl World {
         let index = self.bodies.find(id)?;
         check_pose(pose)?;
         check_finite("seconds", seconds)?;
-        if seconds <= 0.0 {
-            return Err(BodyError::NotPositive {
-                field: "seconds",
-                value: seconds,
-            });
-        }
+        check_positive("seconds", seconds)?;
         let state = self.bodies.get(index);
         if state.kind != BodyKind::Kinematic {
             return Err(BodyError::NotKinematic(id));
@@ -107,10 +102,9 @@ impl World {
             }
         }
         if kind == BodyKind::Dynamic {
-            for (field, value) in [("mass", state.mass.mass), ("inertia", state.mass.inertia)] {
-                if value <= 0.0 && !(field == "inertia" && state.locked_rotation) {
-                    return Err(BodyError::NotPositive { field, value });
-                }
+            check_positive("mass", state.mass.mass)?;
+            if !state.locked_rotation {
+                check_positive("inertia", state.mass.inertia)?;
             }
         }
         self.remake(index, |state| state.set_kind(kind));
@@ -283,7 +277,7 @@ impl World {
         self.bodies.change(index, now, |_| {});
         change(self.bodies.get_mut(index));
         let after = self.bodies.energy_of(index, now);
-        let brought = (after.0 + after.1) - (before.0 + before.1);
+        let brought = after - before;
         self.bodies.book.external.add(brought);
         if self.bodies.get(index).in_engine() {
             self.joins.balance.add(-brought);

@@ -32,16 +32,9 @@ impl World {
     /// If a setting is not finite or out of its range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
         settings.check()?;
-        let h = settings.h();
         Ok(Self {
-            clock: Clock::new(h),
-            bodies: Bodies::new(
-                settings.gravity,
-                settings.field_error,
-                h,
-                settings.history,
-                settings.mode == Mode::Stepped,
-            ),
+            clock: Clock::new(settings.h()),
+            bodies: Bodies::new(&settings),
             pairs: Pairs::default(),
             broad: Broad::new(settings.pair_search),
             closed: Closed::default(),
@@ -125,8 +118,8 @@ impl World {
         }
         self.closed.reset_budget(id.index);
         self.add_shapes(id.index, shapes, def.filter, centroid);
-        let (kinetic, potential) = self.bodies.energy_of(id.index, now);
-        self.bodies.book.external.add(kinetic + potential);
+        let brought = self.bodies.energy_of(id.index, now);
+        self.bodies.book.external.add(brought);
         if self.settings.mode == Mode::Stepped {
             // It enters the engine with the next sub-step.
             self.show_engine(id.index);
@@ -154,8 +147,8 @@ impl World {
         self.wake_around(index, now);
         self.leave(index, now);
         self.bodies.change(index, now, |_| {});
-        let (kinetic, potential) = self.bodies.energy_of(index, now);
-        self.bodies.book.external.add(-(kinetic + potential));
+        let taken = self.bodies.energy_of(index, now);
+        self.bodies.book.external.add(-taken);
         let mut around = Vec::new();
         for place in self.bodies.get(index).pairs.clone() {
             around.push(self.pairs.get(place).other(index));

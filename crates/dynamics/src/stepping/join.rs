@@ -18,7 +18,6 @@ use super::rush::Rush;
 use crate::model::graph::neighbours;
 use crate::store::bodies::Bodies;
 use crate::store::pairs::Shapes;
-use crate::store::state::BodyState;
 use crate::store::uncommon::Lag;
 use crate::{BodyIx, EnergyLedger, Mode, World};
 
@@ -152,8 +151,7 @@ impl World {
             self.end_unsettled(index);
         }
         self.bodies.change(index, time, |_| {});
-        let (kinetic, potential) = self.bodies.energy_of(index, time);
-        self.joins.balance.add(-(kinetic + potential));
+        self.joins.balance.add(-self.bodies.energy_of(index, time));
         self.bodies.join(index);
         self.take_force(index, time);
         let state = self.bodies.get_mut(index);
@@ -241,8 +239,7 @@ impl World {
             return;
         }
         self.bodies.change(index, time, |_| {});
-        let (kinetic, potential) = self.bodies.energy_of(index, time);
-        self.joins.balance.add(kinetic + potential);
+        self.joins.balance.add(self.bodies.energy_of(index, time));
         self.bodies.leave(index);
         let state = self.bodies.get_mut(index);
         state.member = false;
@@ -255,8 +252,8 @@ impl World {
         if !self.joins.pushed.remove(&index) {
             return;
         }
-        let (before, _) = self.bodies.energy_of(index, time);
         let state = self.bodies.get_mut(index);
+        let before = state.kinetic_energy(time);
         let (inverse_mass, inverse_inertia) = (state.inverse_mass, state.inverse_inertia);
         let centre = state.centre_at(time);
         let acts = state.uncommon_mut();
@@ -269,7 +266,7 @@ impl World {
             motion.spin += turning * inverse_inertia;
             (motion.acceleration, motion.angular_acceleration) = (pull, twist);
         });
-        let (after, _) = self.bodies.energy_of(index, time);
+        let after = self.bodies.get(index).kinetic_energy(time);
         self.bodies.book.forces.add(after - before);
     }
 
@@ -343,7 +340,7 @@ impl World {
     /// Potential energy of all members, in J.
     pub(crate) fn potential_of_members(&self) -> f64 {
         let members = self.bodies.iter().filter(|state| state.in_engine());
-        let of = |state: &BodyState| self.bodies.energy_of(state.id.index, self.clock.now).1;
+        let of = |state| self.bodies.potential_of(state, self.clock.now);
         members.map(of).collect::<Sum>().value()
     }
 
@@ -351,9 +348,8 @@ impl World {
     pub(crate) fn book_members(&self, ledger: &mut EnergyLedger) {
         let mut gained = self.joins.balance;
         for state in self.bodies.iter().filter(|state| state.in_engine()) {
-            let (kinetic, potential) = self.bodies.energy_of(state.id.index, self.clock.now);
-            gained.add(kinetic);
-            gained.add(potential);
+            gained.add(state.kinetic_energy(self.clock.now));
+            gained.add(self.bodies.potential_of(state, self.clock.now));
         }
         gained.add(-self.bodies.book.struck.value());
         let engine = self.stepping.as_ref().map(|stepping| &stepping.engine);

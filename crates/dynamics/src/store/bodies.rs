@@ -16,7 +16,7 @@ use super::slots::List;
 use super::state::{BodyState, Collider};
 use super::uncommon::Lag;
 use crate::impact::ImpactBody;
-use crate::{BodyError, BodyId, BodyIx, ColliderIx, EnergyLedger, Ix, Two};
+use crate::{BodyError, BodyId, BodyIx, ColliderIx, EnergyLedger, Ix, Mode, Settings, Two};
 
 /// Running sums of the energy ledger's columns, with twice the digits.
 #[derive(Clone, Copy, Debug, Default)]
@@ -58,22 +58,16 @@ pub(crate) struct Bodies {
 }
 
 impl Bodies {
-    pub(crate) fn new(
-        gravity: Vec2,
-        error: f64,
-        h: f64,
-        history: usize,
-        notes_touched: bool,
-    ) -> Self {
+    pub(crate) fn new(settings: &Settings) -> Self {
         Self {
-            history: History::new(history),
+            history: History::new(settings.history),
             pull: Pull {
-                gravity,
-                error,
+                gravity: settings.gravity,
+                error: settings.field_error,
                 ..Pull::default()
             },
-            h,
-            notes_touched,
+            h: settings.h(),
+            notes_touched: settings.mode == Mode::Stepped,
             ..Self::default()
         }
     }
@@ -251,18 +245,16 @@ impl Bodies {
         let mut boxes = known.map(|at| self.colliders[*at].fat.centre());
         let last = boxes.find(|centre| centre.is_finite());
         let state = self.get_mut(index);
-        let motion = &mut state.motion;
-        motion.start = time;
-        motion.velocity = Vec2::ZERO;
-        motion.acceleration = Vec2::ZERO;
-        motion.spin = 0.0;
-        motion.angular_acceleration = 0.0;
-        if !motion.centre.is_finite() {
-            motion.centre = last.unwrap_or(Vec2::ZERO);
-        }
-        if !motion.rotation.x_axis().is_finite() {
-            motion.rotation = carom_math::Rot::IDENTITY;
-        }
+        let Motion {
+            centre, rotation, ..
+        } = state.motion;
+        let centre = Some(centre).filter(|centre| centre.is_finite()).or(last);
+        let rotation = Some(rotation).filter(|rotation| rotation.x_axis().is_finite());
+        state.motion = Motion {
+            start: time,
+            rotation: rotation.unwrap_or_default(),
+            ..Motion::resting(centre.unwrap_or_default())
+        };
         if !state.turned.is_finite() {
             state.turned = 0.0;
         }
@@ -409,24 +401,26 @@ impl Bodies {
     }
 
     /// Kinetic and potential energy of one body, in J.
-    pub(crate) fn energy_of(&self, index: BodyIx, time: SimTime) -> (f64, f64) {
+    pub(crate) fn energy_of(&self, index: BodyIx, time: SimTime) -> f64 {
         let state = &self.list[index];
+        state.kinetic_energy(time) + self.potential_of(state, time)
+    }
+
+    /// Potential energy of one body, in J.
+    pub(crate) fn potential_of(&self, state: &BodyState, time: SimTime) -> f64 {
         if !state.is_dynamic() {
-            return (0.0, 0.0);
+            return 0.0;
         }
         let centre = state.centre_at(time);
-        let potential = state.mass.mass * state.gravity_scale() * self.pull.potential(centre);
-        (state.kinetic_energy(time), potential)
+        state.mass.mass * state.gravity_scale() * self.pull.potential(centre)
     }
 
     pub(crate) fn ledger(&self, time: SimTime) -> EnergyLedger {
         let (mut kinetic, mut potential) = (Sum::ZERO, Sum::ZERO);
         let mut book = self.book;
-        for index in self.indices() {
-            let (k, p) = self.energy_of(index, time);
-            kinetic.add(k);
-            potential.add(p);
-            let state = self.get(index);
+        for state in self.iter() {
+            kinetic.add(state.kinetic_energy(time));
+            potential.add(self.potential_of(state, time));
             if let Some(piece) = self.piece(state, time, || state.at(time)) {
                 book.forces.add(piece.forces);
                 book.scheme.add(piece.scheme);

@@ -49,7 +49,8 @@ pub(crate) fn jam(
     }
     let energy = |bodies: &Bodies| -> f64 {
         let each = ends.iter();
-        each.map(|index| bodies.energy_of(*index, time).0).sum()
+        each.map(|index| bodies.get(*index).kinetic_energy(time))
+            .sum()
     };
     let had = energy(bodies);
     for (index, body) in ends.into_iter().zip(after) {
