@@ -80,7 +80,8 @@ impl End {
 impl Joint {
     /// Normal from A to B and point of contact, with all that moves them.
     pub(crate) fn seen(&self, a: &Place, b: &Place) -> Seen {
-        match *self {
+        // Of whose edge, or A's point: its normal, how fast that turns, the point of contact and its velocity.
+        let (owner, n, turning, (point, rate), gap, bend) = match *self {
             Self::Line {
                 owner,
                 normal,
@@ -95,27 +96,13 @@ impl Joint {
                 let q = other.point(tip);
                 let (arm, way) = (q - other.centre, q - own.centre);
                 let q_rate = other.velocity_of(q);
-                let point = q - n * radius;
                 // g = n·(q − c) − h − r, with n′ = ω t and t′ = −ω n.
                 let bend = 2.0 * own.spin * t.dot(q_rate - own.velocity)
                     - own.spin * own.spin * n.dot(way)
                     - other.spin * other.spin * n.dot(arm);
-                let point_rate = q_rate - t * (radius * own.spin);
-                let slip = other.velocity_of(point) - own.velocity_of(point);
-                let drift = -own.spin * n.dot(slip)
-                    + t.dot(
-                        perp(point_rate - other.velocity) * other.spin
-                            - perp(point_rate - own.velocity) * own.spin,
-                    );
-                Seen {
-                    // Seen from A; both rates are the same from either side.
-                    normal: owner.first(n, -n).0,
-                    point,
-                    gap: n.dot(way) - height - radius,
-                    slip: t.dot(slip),
-                    bend,
-                    drift,
-                }
+                let at = (q - n * radius, q_rate - t * (radius * own.spin));
+                let gap = n.dot(way) - height - radius;
+                (owner, n, own.spin, at, gap, bend)
             }
             Self::Points {
                 a: of_a,
@@ -135,23 +122,22 @@ impl Joint {
                 let bend = n
                     .dot((p - a.centre) * (a.spin * a.spin) - (q - b.centre) * (b.spin * b.spin))
                     + across * turning;
-                let point = p + n * radii.0;
-                let point_rate = p_rate + t * (radii.0 * turning);
-                let slip = b.velocity_of(point) - a.velocity_of(point);
-                let drift = -turning * n.dot(slip)
-                    + t.dot(
-                        perp(point_rate - b.velocity) * b.spin
-                            - perp(point_rate - a.velocity) * a.spin,
-                    );
-                Seen {
-                    normal: n,
-                    point,
-                    gap: distance - radii.0 - radii.1,
-                    slip: t.dot(slip),
-                    bend,
-                    drift,
-                }
+                let at = (p + n * radii.0, p_rate + t * (radii.0 * turning));
+                let gap = distance - radii.0 - radii.1;
+                (End::A, n, turning, at, gap, bend)
             }
+        };
+        let ((own, other), t) = (owner.first(a, b), perp(n));
+        let slip = other.velocity_of(point) - own.velocity_of(point);
+        let bends = |place: &Place| perp(rate - place.velocity) * place.spin;
+        Seen {
+            // Seen from A; both rates are the same from either side.
+            normal: owner.first(n, -n).0,
+            point,
+            gap,
+            slip: t.dot(slip),
+            bend,
+            drift: -turning * n.dot(slip) + t.dot(bends(other) - bends(own)),
         }
     }
 
