@@ -86,35 +86,10 @@ impl Grid {
     pub(crate) fn remove(&mut self, body: BodyIx, cells: Cells) {
         for cell in cells.each() {
             let list = self.list(cell);
-            Self::drop_from(&mut self.lists[list], body);
-        }
-    }
-
-    /// Moves a body from cells to others, most of which are the same.
-    pub(crate) fn shift(&mut self, swept_box: SweptBox, from: Cells, to: Cells) {
-        for cell in from.each() {
-            let list = self.list(cell);
             let list = &mut self.lists[list];
-            // Where cells share a list a body is in it more than once: those that are moved already do not count.
-            let old = |known: &SweptBox| known.body == swept_box.body && *known != swept_box;
-            match list.iter().position(old) {
-                Some(at) if to.has(cell) => list[at] = swept_box,
-                Some(at) => {
-                    list.swap_remove(at);
-                }
-                None if to.has(cell) => {}
-                None => Self::drop_from(list, swept_box.body),
+            if let Some(at) = list.iter().position(|swept_box| swept_box.body == body) {
+                list.swap_remove(at);
             }
-        }
-        for cell in to.each().filter(|cell| !from.has(*cell)) {
-            let list = self.list(cell);
-            self.lists[list].push(swept_box);
-        }
-    }
-
-    fn drop_from(list: &mut Vec<SweptBox>, body: BodyIx) {
-        if let Some(at) = list.iter().position(|swept_box| swept_box.body == body) {
-            list.swap_remove(at);
         }
     }
 
@@ -191,7 +166,8 @@ mod tests {
                 grid.insert(SweptBox::new(i, Sides::around(*bounds)), grid.cells(*bounds));
             }
             for (i, (from, to)) in (0..).map(BodyIx::new).zip(before.iter().zip(&boxes)) {
-                grid.shift(SweptBox::new(i, Sides::around(*to)), grid.cells(*from), grid.cells(*to));
+                grid.remove(i, grid.cells(*from));
+                grid.insert(SweptBox::new(i, Sides::around(*to)), grid.cells(*to));
             }
             for (i, bounds) in (0..).map(BodyIx::new).zip(&boxes) {
                 let mut near = Vec::new();

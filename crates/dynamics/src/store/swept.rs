@@ -55,10 +55,6 @@ impl Cells {
         u64::from(side(self.low.0, self.high.0)) * u64::from(side(self.low.1, self.high.1))
     }
 
-    pub(crate) const fn has(self, (x, y): (i32, i32)) -> bool {
-        self.low.0 <= x && x <= self.high.0 && self.low.1 <= y && y <= self.high.1
-    }
-
     pub(crate) fn each(self) -> impl Iterator<Item = (i32, i32)> {
         (self.low.1..=self.high.1)
             .flat_map(move |y| (self.low.0..=self.high.0).map(move |x| (x, y)))

@@ -147,14 +147,12 @@ impl FreeBodies {
             return false;
         }
         course.horizon = horizon;
-        let swept_box = SweptBox::new(index, course.swept);
-        match course.cells.replace(cells) {
-            Some(known) => self.grid.shift(swept_box, known, cells),
-            None => {
-                self.grid.insert(swept_box, cells);
-                self.in_grid.insert(index);
-            }
+        if let Some(known) = course.cells.replace(cells) {
+            self.grid.remove(index, known);
+        } else {
+            self.in_grid.insert(index);
         }
+        self.grid.insert(SweptBox::new(index, course.swept), cells);
         true
     }
 
