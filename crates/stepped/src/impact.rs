@@ -333,9 +333,10 @@ fn at_surface(v: f64, gap: f64, pull: f64) -> f64 {
 
 /// Adds numbers of contacts that push and did not when this was last asked.
 fn begins(colour: &mut Colour, new: &mut Vec<ContactIx>) {
-    for (now, cold) in colour.pushes.iter().zip(&mut colour.cold) {
-        let begins = now & !cold.pushed;
-        cold.pushed = *now;
+    let pushed = colour.pushes.iter().zip(&mut colour.pushed);
+    for ((now, pushed), cold) in pushed.zip(&colour.cold) {
+        let begins = now & !*pushed;
+        *pushed = *now;
         new.extend(lanes(begins).map(|lane| cold.contact[lane]));
     }
 }

@@ -92,8 +92,6 @@ pub(crate) struct Cold {
     pub(crate) shown: [f64; LANES],
     /// A bit for each lane that pushed when it was last asked.
     pub(crate) touching: u8,
-    /// A bit for each lane that pushed when impacts were last looked for.
-    pub(crate) pushed: u8,
     /// A bit for each lane that was too deep for the sweeps when it was last computed.
     pub(crate) deep: u8,
     /// A bit for each of these that came so, and was not crushed.
@@ -285,7 +283,6 @@ impl Cold {
         hidden: [[0.0; 2]; LANES],
         shown: [0.0; LANES],
         touching: 0,
-        pushed: 0,
         deep: 0,
         put: 0,
         unloaded: 0,
@@ -367,7 +364,6 @@ impl Cold {
         self.shown[to] = other.shown[from];
         let bit = |mine: u8, theirs: u8| mine & !(1 << to) | (theirs >> from & 1) << to;
         self.touching = bit(self.touching, other.touching);
-        self.pushed = bit(self.pushed, other.pushed);
         self.deep = bit(self.deep, other.deep);
         self.put = bit(self.put, other.put);
         self.unloaded = bit(self.unloaded, other.unloaded);

@@ -10,6 +10,8 @@ pub(crate) struct Colour {
     pub(crate) cold: Vec<Cold>,
     /// A bit for each lane that pushes, as sweeps leave them.
     pub(crate) pushes: Vec<u8>,
+    /// A bit for each lane that pushed when impacts were last looked for.
+    pub(crate) pushed: Vec<u8>,
     /// How many contacts have restitution.
     pub(crate) bouncing: usize,
     /// How many contacts have a belt.
@@ -24,6 +26,7 @@ pub(crate) struct Colour {
 pub(super) struct Lane {
     block: Block,
     cold: Cold,
+    pushed: u8,
     lane: usize,
 }
 
@@ -31,6 +34,7 @@ impl Lane {
     const EMPTY: Self = Self {
         block: Block::EMPTY,
         cold: Cold::EMPTY,
+        pushed: 0,
         lane: 0,
     };
 }
@@ -53,6 +57,7 @@ impl Colour {
             self.blocks.push(Block::EMPTY);
             self.cold.push(Cold::EMPTY);
             self.pushes.push(0);
+            self.pushed.push(0);
         }
         let cold = &mut self.cold[k];
         cold.used |= 1 << lane;
@@ -78,6 +83,7 @@ impl Colour {
         Lane {
             block: self.blocks[k],
             cold: self.cold[k],
+            pushed: self.pushed[k],
             lane,
         }
     }
@@ -86,6 +92,8 @@ impl Colour {
     pub(super) fn paste(&mut self, k: usize, lane: usize, from: &Lane) {
         self.blocks[k].copy_lane(lane, &from.block, from.lane);
         self.cold[k].copy_lane(lane, &from.cold, from.lane);
+        let pushed = (from.pushed >> from.lane & 1) << lane;
+        self.pushed[k] = self.pushed[k] & !(1 << lane) | pushed;
         self.count(k, lane);
     }
 
@@ -97,6 +105,7 @@ impl Colour {
         self.discount(k, 0);
         self.blocks[k] = Block::EMPTY;
         self.cold[k] = Cold::EMPTY;
+        self.pushed[k] = 0;
         self.holes += 1;
         4 * self.holes > self.blocks.len()
     }
@@ -111,6 +120,7 @@ impl Colour {
             if count < k {
                 self.blocks[count] = self.blocks[k];
                 self.cold[count] = self.cold[k];
+                self.pushed[count] = self.pushed[k];
                 moved(self.cold[count].contact[0], count);
             }
             count += 1;
@@ -118,6 +128,7 @@ impl Colour {
         self.blocks.truncate(count);
         self.cold.truncate(count);
         self.pushes.truncate(count);
+        self.pushed.truncate(count);
         self.holes = 0;
     }
 
@@ -138,6 +149,7 @@ impl Colour {
             self.blocks.pop();
             self.cold.pop();
             self.pushes.pop();
+            self.pushed.pop();
         }
         moves.then(|| self.cold[k].contact[lane])
     }
