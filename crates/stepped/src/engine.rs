@@ -403,7 +403,7 @@ impl Engine {
         free.meet(graph, bodies);
         warm_start(*level, bodies, law.h);
         hard.free(bodies, graph);
-        arrivals(law, bodies, graph, arrived, before);
+        arrivals((*level, law), bodies, graph, arrived, before);
         impacts.note_arrivals(arrived, graph);
         if hard.solve(law, bodies, graph) {
             // Islands without an answer are swept instead.

@@ -8,11 +8,19 @@
 //! How much of a blow the rows stop is a matter of where in the sub-step it falls. So the bounce goes on from what they did,
 //! friction included ([`Bounce`]).
 
+#![allow(clippy::inline_always, reason = "the wide instructions end at a call")]
+
+use fearless_simd::{Level, Simd, SimdMask};
+
 use super::block::{Block, Cold, LANES};
 use super::bounce::Bounce;
 use super::bounce_budget::{Before, Places, keep, note, places};
+use super::colour::Colour;
 use super::graph::Graph;
 use super::law::Law;
+use super::line::Line;
+use super::transpose::{Wide, any};
+use super::widest::widest;
 use crate::bodies::Bodies;
 use crate::{ContactIx, LineIx};
 
@@ -42,7 +50,7 @@ pub(crate) struct Arrival {
 
 /// Finds what is met within this sub-step or the next, once the warm start acts.
 pub(crate) fn arrivals(
-    law: &Law,
+    (level, law): (Level, &Law),
     bodies: &Bodies,
     graph: &mut Graph,
     found: &mut Vec<Arrival>,
@@ -50,15 +58,13 @@ pub(crate) fn arrivals(
 ) {
     found.clear();
     let least = REST * law.h * law.gravity;
+    let mut close = Vec::new();
     for colour in graph.awake().iter().filter(|colour| colour.bouncing > 0) {
-        for (block, cold) in colour.blocks.iter().zip(&colour.cold) {
-            let bounces = |lane: &usize| cold.restitution[*lane] > 0.0;
-            // What bears a load is at rest, however it shakes: a bounce would take away what holds the pile above it.
-            let is_loaded = |lane: &usize| block.j1[*lane] + block.j2[*lane] > 0.0;
-            for lane in (0..LANES).filter(|lane| bounces(lane) && !is_loaded(lane)) {
-                let speeds = [least, law.h];
-                found.extend(arrival(speeds, bodies, (block, cold, lane)));
-            }
+        close.clear();
+        widest!(level => closing(&bodies.lines, colour, least, &mut close));
+        for &(k, lane) in &close {
+            let row = (&colour.blocks[k], &colour.cold[k], lane);
+            found.extend(arrival([least, law.h], bodies, row));
         }
     }
     for arrival in &*found {
@@ -72,6 +78,45 @@ pub(crate) fn arrivals(
     }
 }
 
+/// Blocks and lanes that have restitution, bear no load and close faster than `least`. What bears a load is at rest, however it shakes:
+/// a bounce would take away what holds the pile above it.
+#[inline(always)]
+fn closing<S: Simd, V: Wide<S>>(
+    simd: S,
+    lines: &[Line],
+    colour: &Colour,
+    least: f64,
+    found: &mut Vec<(usize, usize)>,
+) {
+    let (zero, least) = (V::splat(simd, 0.0), V::splat(simd, -least));
+    for ((block, cold), k) in colour.blocks.iter().zip(&colour.cold).zip(0..) {
+        let mut at = 0;
+        while at < LANES {
+            let end = at + V::LANES;
+            let bounces = V::from_slice(simd, &cold.restitution[at..end]).simd_gt(zero);
+            let j1 = V::from_slice(simd, &block.j1[at..end]);
+            let is_loaded = (j1 + V::from_slice(simd, &block.j2[at..end])).simd_gt(zero);
+            if any(bounces & !is_loaded) {
+                let [avx, avy, aw, _] = V::columns(simd, lines, &block.a[at..end], 0);
+                let [bvx, bvy, bw, _] = V::columns(simd, lines, &block.b[at..end], 0);
+                let nx = V::from_slice(simd, &block.nx[at..end]);
+                let ny = V::from_slice(simd, &block.ny[at..end]);
+                let a1 = V::from_slice(simd, &block.a1[at..end]);
+                let b1 = V::from_slice(simd, &block.b1[at..end]);
+                let l = V::from_slice(simd, &block.l[at..end]);
+                let v1 = nx * (bvx - avx) + ny * (bvy - avy) + b1 * bw - a1 * aw;
+                let v2 = v1 + l * (bw - aw);
+                let mut bits = (bounces & !is_loaded & v1.min(v2).simd_lt(least)).to_bitmask();
+                while bits != 0 {
+                    found.push((k, at + bits.trailing_zeros() as usize));
+                    bits &= bits - 1;
+                }
+            }
+            at = end;
+        }
+    }
+}
+
 /// The arrival of a contact that closes faster than `least`, if a point of it is met within two sub-steps of `h` seconds.
 fn arrival(
     [least, h]: [f64; 2],
@@ -80,9 +125,6 @@ fn arrival(
 ) -> Option<Arrival> {
     let lines = block.lines(lane);
     let v = block.opening(lane, &bodies.lines);
-    if v[0].min(v[1]) >= -least {
-        return None;
-    }
     let pull = block.pull(lane, bodies);
     let gaps = block.gaps(lane, &bodies.lines);
     let mut arrival = Arrival {
