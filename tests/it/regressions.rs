@@ -8,6 +8,7 @@ mod a_box_stays_in_a_valley;
 mod a_changed_free_body_keeps_its_law;
 mod a_clamped_body_is_not_struck_for_ever;
 mod a_corner_of_two_parts_bears_once;
+mod a_corner_of_two_shapes_is_struck_once;
 mod a_corner_slides_onto_a_ramp;
 mod a_crushed_body_is_struck_for_a_while;
 mod a_disc_rolls_over_a_tip;

@@ -2,7 +2,8 @@
 //!
 //! With e < 1 a series that comes ever faster is followed to its limit one after the other: there all instants are one.
 
-use carom_math::SimTime;
+use arrayvec::ArrayVec;
+use carom_math::{SimTime, Vec2, perp};
 
 use super::Foreseen;
 use super::queue::Entry;
@@ -75,6 +76,7 @@ impl World {
         }
         if struck.len() > 1 && self.are_real(&struck, time) {
             self.drop_corners_of_seams(&mut struck);
+            self.unite_sides(&mut struck);
         }
         if struck.len() > 1 && self.are_real(&struck, time) && self.are_one(&struck, time) {
             let impacts: Vec<Foreseen> = struck.into_iter().map(|(_, impact)| impact).collect();
@@ -181,6 +183,46 @@ impl World {
             };
             impact.face().is_some() || !faces.iter().any(on_seam)
         });
+    }
+
+    /// Shapes of one body that come down with one side, or with a corner that they share, strike once, as a shape in one piece does: at
+    /// the ends of all that touches.
+    fn unite_sides(&self, struck: &mut Vec<Due>) {
+        let mut k = 1;
+        while k < struck.len() {
+            let known = struck[..k].iter();
+            let mut known = known.map(|(_, one)| self.is_one_side(one, &struck[k].1));
+            let Some(one) = known.position(|is| is) else {
+                k += 1;
+                continue;
+            };
+            let (_, other) = struck.remove(k);
+            let impact = &mut struck[one].1;
+            let near = SEAM * self.smaller_reach(impact);
+            let along = perp(impact.normal);
+            let all = || impact.points.iter().chain(&other.points).copied();
+            let place = |x: &Vec2, y: &Vec2| x.dot(along).total_cmp(&y.dot(along));
+            let ends = [all().min_by(place), all().max_by(place)];
+            let ends: ArrayVec<Vec2, 2> = ends.into_iter().flatten().collect();
+            impact.points = ends;
+            if impact.points.len() == 2 && (impact.points[1] - impact.points[0]).length() <= near {
+                impact.points.truncate(1);
+            }
+        }
+    }
+
+    /// Whether two impacts are of the same bodies, along one line, and with one material.
+    fn is_one_side(&self, one: &Foreseen, other: &Foreseen) -> bool {
+        let off = (other.points[0] - one.points[0]).dot(one.normal);
+        one.bodies == other.bodies
+            && (other.normal - one.normal).length() <= SEAM
+            && off.abs() <= SEAM * self.smaller_reach(one)
+            && self.material_of(one) == self.material_of(other)
+    }
+
+    fn smaller_reach(&self, impact: &Foreseen) -> f64 {
+        let (a, b) = self.bodies.both(impact.bodies);
+        a.reach.min(b.reach)
     }
 
     /// Several impacts at one instant, by [`crate::Settings::several`].
