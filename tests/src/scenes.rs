@@ -42,6 +42,19 @@ pub fn stepped(settings: Settings) -> World {
     .expect("valid settings")
 }
 
+/// An empty world in exact mode, with the settings as they come.
+///
+/// # Panics
+/// Never.
+#[must_use]
+pub fn exact() -> World {
+    World::new(Settings {
+        mode: Mode::Exact,
+        ..Settings::default()
+    })
+    .expect("valid settings")
+}
+
 /// A fixed floor of 40 m with its top at y = 0.
 pub fn floor(world: &mut World, material: Material) -> BodyId {
     let def = BodyDef::fixed().at(vec2(0.0, -1.0));

@@ -28,7 +28,7 @@ impl World {
         let is_unsolved = |index: &BodyIx| self.bodies.get(*index).is_unsolved();
         let waiting: Vec<BodyIx> = self.unsettled.iter().copied().filter(is_unsolved).collect();
         self.close_groups_within(&waiting, time);
-        self.drop_alone(time);
+        self.drop_unsolved(time);
         self.join_unsolved(time);
         self.begin_analytic_rest(time);
         // What touches something more as it begins its motion waits again.
@@ -101,16 +101,16 @@ impl World {
     /// Bodies that nothing holds fly: what they touch opens. In hybrid mode this is so of one that bounced off all that it touches, as
     /// a disc that comes out of a corner, and of several with nothing near: others strike again soon, and are cheaper in the engine
     /// (dominoes 1.7 times, hills 1.3).
-    fn drop_alone(&mut self, time: SimTime) {
+    fn drop_unsolved(&mut self, time: SimTime) {
         for island in self.unsolved_islands() {
-            if self.settings.mode == Mode::Exact || self.bounced(&island) {
+            if self.settings.mode == Mode::Exact || self.is_clear(&island) {
                 self.drop_unheld(&island, time);
             }
         }
     }
 
-    /// Whether one body bounced off all that it touches, or several have nothing near.
-    fn bounced(&self, island: &[BodyIx]) -> bool {
+    /// Whether one body bounced off all that it touches, or nothing is near the bodies.
+    fn is_clear(&self, island: &[BodyIx]) -> bool {
         let pairs = island
             .iter()
             .flat_map(|index| &self.bodies.get(*index).pairs);

@@ -1,19 +1,15 @@
 //! A ball that a corner sends back opens against floor and ramp at once. What touched something and had no contact mode was left to the
 //! engine, as if it were pressed: of these 40 balls 22 were in it for up to five seconds of six, in exact mode.
 
-use carom_dynamics::{BodyDef, Mode, Settings, World};
+use carom_dynamics::BodyDef;
 use carom_geometry::{Circle, ConvexPolygon};
 use carom_math::vec2;
-use carom_tests::scenes::{floor, put, surface};
+use carom_tests::scenes::{exact, floor, put, surface};
 
 #[test]
 fn a_ball_bounces_out_of_a_corner() {
     for k in 0..40_u8 {
-        let mut world = World::new(Settings {
-            mode: Mode::Exact,
-            ..Settings::default()
-        })
-        .expect("settings");
+        let mut world = exact();
         let (e, friction) = ([0.3, 0.5, 0.7, 0.9], [0.0, 0.3, 0.7]);
         let material = surface(e[usize::from(k % 4)], friction[usize::from(k % 3)]);
         floor(&mut world, material);

@@ -1,17 +1,13 @@
 //! A box of two triangles has two of its corners twice. Both triangles struck the floor with such a corner at one instant, as two contacts,
 //! and what several contacts with friction give back is another speed: 0.51 m/s upwards where one box has 0.40, in exact mode.
 
-use carom_dynamics::{BodyDef, BodyId, Mode, Settings, World};
+use carom_dynamics::{BodyDef, BodyId, World};
 use carom_geometry::ConvexPolygon;
 use carom_math::{Vec2, vec2};
-use carom_tests::scenes::{floor, surface};
+use carom_tests::scenes::{exact, floor, surface};
 
 fn thrown(shapes: &[ConvexPolygon], k: u8) -> (World, BodyId) {
-    let mut world = World::new(Settings {
-        mode: Mode::Exact,
-        ..Settings::default()
-    })
-    .expect("settings");
+    let mut world = exact();
     let friction = [0.0, 0.3, 0.7, 1.2][usize::from(k % 4)];
     let material = surface([0.6, 0.8, 0.9][usize::from(k % 3)], friction);
     floor(&mut world, material);

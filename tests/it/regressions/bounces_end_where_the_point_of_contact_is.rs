@@ -3,18 +3,10 @@
 //! these 40 boxes opened at their corner after the last bounce, had no method, and lost in the engine up to a quarter of their energy to
 //! the scheme, in exact mode.
 
-use carom_dynamics::{BodyDef, Mode, Settings, World};
+use carom_dynamics::BodyDef;
 use carom_geometry::{Circle, ConvexPolygon};
 use carom_math::{trig, vec2};
-use carom_tests::scenes::{floor, put, surface};
-
-fn exact() -> World {
-    World::new(Settings {
-        mode: Mode::Exact,
-        ..Settings::default()
-    })
-    .expect("settings")
-}
+use carom_tests::scenes::{exact, floor, put, surface};
 
 /// Friction about the rim takes v and r ω to one another: v = (2 v₀ − r ω₀)/3 of a disc.
 #[test]

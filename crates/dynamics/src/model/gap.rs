@@ -107,21 +107,17 @@ pub(crate) fn contact_after(
         Some(Side::A) => (a, b),
         Some(Side::B) => (b, a),
         None => {
-            let (d, ways) = (b.at - a.at, [a.way(t), b.way(t)]);
-            let part = if d == Vec2::ZERO {
-                0.5
-            } else {
-                (point - a.at).dot(d) / d.length_squared()
-            };
-            let later = d + ways[1] - ways[0];
-            let at = point + ways[0] + (ways[1] - ways[0]) * part;
-            // Two corners that meet have no distance to tell the normal by.
-            let normal = if d == Vec2::ZERO {
-                normal
-            } else {
-                later.normalize_or(normal)
-            };
-            return (at, normal);
+            let (d, way, other_way) = (b.at - a.at, a.way(t), b.way(t));
+            if d == Vec2::ZERO {
+                // Two corners that meet have no distance to tell the normal by.
+                return (point + 0.5 * (way + other_way), normal);
+            }
+            let part = (point - a.at).dot(d) / d.length_squared();
+            let opened = other_way - way;
+            return (
+                point + way + opened * part,
+                (d + opened).normalize_or(normal),
+            );
         }
     };
     let turned = (own.spin + 0.5 * own.turning * t) * t;

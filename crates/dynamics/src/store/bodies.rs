@@ -400,7 +400,7 @@ impl Bodies {
         })
     }
 
-    /// Kinetic and potential energy of one body, in J.
+    /// Mechanical energy of one body, kinetic and potential, in J.
     pub(crate) fn energy_of(&self, index: BodyIx, time: SimTime) -> f64 {
         let state = &self.list[index];
         state.kinetic_energy(time) + self.potential_of(state, time)

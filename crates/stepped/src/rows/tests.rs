@@ -109,7 +109,7 @@ fn all_widths_note_the_bodies_that_deviate_or_go_far_one_by_one() {
     assert!(all / 10 < far && far < all, "{far} of {all}");
 }
 
-/// Bodies whose velocities are no longer numbers are stopped as the tick ends: until then their impacts are summed like others.
+/// Bodies with velocities that are no longer numbers are stopped as the tick ends: until then their impacts are summed like others.
 #[test]
 fn heat_of_what_is_no_number_is_none_either() {
     for slip in [f64::NAN, f64::INFINITY] {

@@ -80,7 +80,8 @@ impl End {
 impl Joint {
     /// Normal from A to B and point of contact, with all that moves them.
     pub(crate) fn seen(&self, a: &Place, b: &Place) -> Seen {
-        // Of whose edge, or A's point: its normal, how fast that turns, the point of contact and its velocity.
+        // The end that has the edge, or A of two points; the normal away from it and how fast that turns; the point of contact and its
+        // velocity.
         let (owner, n, turning, (point, rate), gap, bend) = match *self {
             Self::Line {
                 owner,

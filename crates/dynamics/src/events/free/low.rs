@@ -32,7 +32,9 @@ pub(super) fn micro_bounce(
 ) -> Option<(f64, Foreseen)> {
     let (a, b) = impact.bodies;
     let after = [a, b].map(|index| bodies.get(index).in_impact(time));
-    let (rise, pressed) = (-approach_speed(impact, &after), press(bodies, impact, time));
+    let at = touching(bodies, impact, impact.points[0], time);
+    let pressed = -gap_acceleration(&at.0, &at.1, impact.normal, impact.face());
+    let rise = -approach_speed(impact, &after);
     let rises = |point: &Vec2| opening(&after, *point, impact.normal);
     if impact
         .points
@@ -47,7 +49,7 @@ pub(super) fn micro_bounce(
         let round = matches!(vertices, [centre] if centre.length() <= CENTRED * state.reach);
         state.motion.spin == 0.0 || round
     };
-    let slips = impact.face().is_none() && slip(bodies, impact, time) != 0.0;
+    let slips = impact.face().is_none() && slip_of(&at.0, &at.1, impact.normal) != 0.0;
     let turns = slips || !(steady(one, impact.colliders.0) && steady(two, impact.colliders.1));
     let bends = bodies.bends(a) || bodies.bends(b);
     let low = if turns || bends { LOW } else { FLAT };
@@ -68,12 +70,6 @@ pub(super) fn micro_bounce(
 pub(super) fn press(bodies: &Bodies, impact: &Foreseen, time: SimTime) -> f64 {
     let (a, b) = touching(bodies, impact, impact.points[0], time);
     -gap_acceleration(&a, &b, impact.normal, impact.face())
-}
-
-/// How fast what touches of one body goes along what touches of the other, in m/s.
-fn slip(bodies: &Bodies, impact: &Foreseen, time: SimTime) -> f64 {
-    let (a, b) = touching(bodies, impact, impact.points[0], time);
-    slip_of(&a, &b, impact.normal)
 }
 
 /// What of both bodies touches at a point of an impact.
